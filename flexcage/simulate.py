@@ -15,8 +15,10 @@ from flexcage.core.binding import expect
 from flexcage.core.locks import held
 from flexcage.core.timing import Stages
 from flexcage.integrate.integration import Integration
+from flexcage.results.store import MemoryRunStore
 from flexcage.run import Run, warnings_at_start
 from flexcage.run.folder import begun_store, check_written, open_folder
+from flexcage.run.foreseen import told_before
 from flexcage.run.storing import run_store, stored_cage
 from flexcage.stages import assembled_start, made_cage
 
@@ -28,11 +30,13 @@ def simulate(
     resume: bool = False,
     study: str | Path | None = None,
     stress: bool = True,
+    other_version: bool = False,
     progress: Any = None,
 ) -> Run:
     """Simulate a case; results are kept in memory, or in the folder ``out`` as the run goes.
 
-    ``resume`` goes on with a run that stopped, from its last committed block. ``study`` is the
+    ``resume`` goes on with a run that stopped, from its last committed block; ``other_version``
+    allows that with one that a flexcage of other physics began. ``study`` is the
     folder of a study whose runs share the files of their cages. Without ``stress``, the
     cage's is computed only when asked for, unless it may exceed the proof stress. ``progress`` is a
     context like ``core.progress.Progress``. Raises InputError for an impossible case and RunFailed
@@ -40,23 +44,25 @@ def simulate(
     """
     expect(case, Case, "case", "flexcage.load_case reads one from a file")
     if out is None:
-        return _simulated(case, None, False, None, stress, progress)
+        return _simulated(case, None, None, None, stress, progress)
+    folder = Path(out)
     if resume:
-        check_written(Path(out))
-    with held(Path(out), inside=True):
-        return _simulated(case, Path(out), resume, study, stress, progress)
+        check_written(folder)
+    with held(folder, inside=True):
+        begun = begun_store(folder, case, other_version=other_version) if resume else None
+        return _simulated(case, folder, begun, study, stress, progress)
 
 
 def _simulated(
     case: Case,
     folder: Path | None,
-    resume: bool,
+    begun: MemoryRunStore | None,
     study: str | Path | None,
     stress: bool,
     progress: Any,
 ) -> Run:
     stages = Stages(progress)
-    begun = begun_store(folder, case) if folder and resume else None
+    foreseen = told_before(case, stress=stress)
     compiling = begin_compiling(case)
     if folder and begun:
         mesh, cage = stored_cage(case, begun, folder, stages)
@@ -64,7 +70,7 @@ def _simulated(
         mesh, cage = made_cage(case, stages)
     bearing = stages.named("kernels", build_bearing, case, mesh, cage, compiling)
     start = stages("start", assembled_start, case, bearing, stages.progress)
-    warned = warnings_at_start(case, mesh, cage, start)
+    warned = (*foreseen, *warnings_at_start(case, mesh, cage, start))
     store = begun or run_store(
         case, bearing, (mesh, cage), folder, study=Path(study) if study else None, warned=warned
     )

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import logging
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from flexcage.bearings import sections_of, statics_of
 from flexcage.case import Case, StaticCase
+from flexcage.case.odd_values import odd_values
 from flexcage.contacts.spec import EhlTraction
 from flexcage.core.binding import expect
 from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.core.listing import PAGE
+from flexcage.core.writing import write_text
 from flexcage.geometry.film import creep_speed
 from flexcage.system.statics.options import AT_START, StaticOptions
 from flexcage.system.statics.rings import BentRing, Rings
@@ -30,12 +34,14 @@ def solve_static(case: StaticCase, *, options: StaticOptions | None = None) -> S
     Raises InputError for a load that the bearing cannot bear, RunFailed if none is found.
     """
     expect(case, (StaticCase, Case), "case", "flexcage.load_static reads one from a file")
-    return solve_bearing(
+    solution = solve_bearing(
         case.bearing, statics_of(case.bearing), load=case.load, speed=case.speed,
         contacts=case.contacts, lubricant=case.lubricant, options=options or case.static,
         rings=Rings(case.inner_ring, case.outer_ring, sections_of(case.bearing)),
         seat=compliance_of(case.mount, case.bearing),
     )  # fmt: skip
+    said = tuple(text for _, text in odd_values(case))
+    return replace(solution, warnings=(*said, *solution.warnings)) if said else solution
 
 
 def ehl_traction(
@@ -104,8 +110,8 @@ def write_static(case: StaticCase, solution: StaticSolution, folder: Path) -> li
     A machine that cannot draw costs the pictures alone.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "case.toml").write_text(case.to_toml(), encoding="utf-8")
-    (folder / "static.txt").write_text(solution.table() + "\n", encoding="utf-8")
+    write_text(folder / "case.toml", case.to_toml())
+    write_text(folder / "static.txt", solution.table(PAGE) + "\n")
     solution.to_json(folder / "static.json")
     written = [folder / name for name in ("case.toml", "static.txt", "static.json")]
     try:

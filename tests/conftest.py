@@ -70,6 +70,12 @@ def build_parts(n1013):
     return build
 
 
+@pytest.fixture(autouse=True)
+def wide_terminal(monkeypatch):
+    """Tests read what is printed, not how it wraps; those of widths set their own."""
+    monkeypatch.setenv("COLUMNS", "1000")
+
+
 def pytest_configure(config):
     # numba calls functions passed as values experimental
     config.addinivalue_line("filterwarnings", "ignore:First-class function type feature")

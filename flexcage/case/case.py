@@ -25,6 +25,7 @@ from flexcage.case.tables import (
     without_aliases,
     words_of_text,
 )
+from flexcage.case.unread import reasons
 from flexcage.contacts.spec import LandSpec
 from flexcage.core import html
 from flexcage.core.binding import (
@@ -37,6 +38,7 @@ from flexcage.core.binding import (
 from flexcage.core.hashing import content_hash, counts
 from flexcage.core.registry import source_of
 from flexcage.core.spec import option
+from flexcage.core.unread import why_unread
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.defect import CageDefect
@@ -227,12 +229,10 @@ class Case(StaticCase):
 
     def _reads(self, path: str) -> bool:
         """Does anything read the value at a dotted path, in a bearing and cage such as these?"""
-        room, _, rest = path.partition(".")
-        if room == "contacts":
-            places = self.bearing.places
-            met = self.bearing.land(self.cage) is not None and self.land.kind != "none"
-            return rest.partition(".")[0] in (*places, *(("land",) if met else ()))
-        return room != "modes" or self.cage_model == "flexible"
+        guided = self.bearing.land(self.cage) is not None and self.land.kind != "none"
+        if path.startswith("contacts.land") and not guided:
+            return False
+        return not why_unread(path, reasons(self))
 
     def __repr__(self) -> str:
         defects = f", {len(self.defects)} defect(s)" if self.defects else ""
@@ -282,8 +282,17 @@ def _given_by(pairs: Mapping[str, Any]) -> Iterator[str]:
         if isinstance(value, Mapping):
             yield from (inner for inner, _ in flat(value, path))
         elif dataclasses.is_dataclass(value):
-            yield from (inner for inner, _ in flat(as_table(value), path))
+            yield from _differing(value, path)
         yield path
+
+
+def _differing(spec: Any, where: str) -> Iterator[str]:
+    """Paths of the values of a spec, and of specs inside it, that are not as by default."""
+    for field in dataclasses.fields(spec):
+        value, path = getattr(spec, field.name), f"{where}.{field.name}"
+        if value != default_of(field):
+            inside = dataclasses.is_dataclass(value) and not isinstance(value, type)
+            yield from _differing(value, path) if inside else (path,)
 
 
 def _at(spec: Any, path: str) -> Any:

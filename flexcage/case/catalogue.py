@@ -6,18 +6,18 @@ types share, and ratings by designation, each with the catalogue that they are f
 
 from __future__ import annotations
 
-import difflib
 import re
 from dataclasses import dataclass, replace
 from functools import cache
 
 from flexcage.case.catalogues import rows
 from flexcage.case.marks import split
-from flexcage.core.binding import told_elsewhere
+from flexcage.core.binding import near_names, told_elsewhere
 from flexcage.core.errors import InputError
 from flexcage.core.units import parse
 from flexcage.geometry.bearing import OTHER_DESIGNS
 from flexcage.geometry.inside import Outline
+from flexcage.geometry.other_kinds import kind_of
 
 # columns of ratings that only some types of bearing have: the option of "flexcage new" for each
 _OPTIONS = {
@@ -46,12 +46,23 @@ def find(text: str) -> Entry:
     name = re.sub(r"[\s_/-]", "", text.upper())
     if name in _ratings():
         return _entry(name)
+    if declined := kind_of(name):
+        raise InputError(f"'{text}' {declined}.", where="designation", value=text)
     if marked := split(name, _ratings()):
         bare = _entry(marked.bare)
         return replace(bare, outline=marked.applied(bare.outline))
     if full := _with_suffix(name):
         entry = _entry(full)
         return replace(entry, source=f"{entry.source}; {text} means {full}")
+    if not _parsed(name) and (design := _of_a_design(name)):
+        raise InputError(
+            f"'{text}' is a cylindrical roller bearing of the design {design}, which flexcage has, "
+            f"but the catalogue has only the series {', '.join(_series_of(design))} of it; "
+            f"describe it by flexcage new {name} --type cylindrical_roller --design {design} "
+            '--bore "..." --outside "..." --width "..." --dynamic "..." --static "...".',
+            where="designation",
+            value=text,
+        )
     if not _parsed(name) and (told := told_elsewhere(name, OTHER_DESIGNS)):
         raise InputError(f"'{text}': {told}{_same_rollers(name)}.", where="designation", value=text)
     raise _without_ratings(text, name) or InputError(
@@ -78,7 +89,7 @@ WAY = (
 
 def _nearest(name: str) -> str:
     """The known designations that are nearest to a name, or what the catalogue has at all."""
-    close = difflib.get_close_matches(name, _ratings(), n=3)
+    close = near_names(name, _ratings())
     if not close:
         return f"it has the series {', '.join(_series())}, with bores of 10 to 60 mm"
     return f"the nearest known {'one is' if len(close) == 1 else 'ones are'} {', '.join(close)}"
@@ -92,6 +103,16 @@ def _same_rollers(name: str) -> str:
             if re.match(rf"{other}\d\d(\D|$)", name) and own in _ratings():
                 return f"; '{own}' has the same races and ratings"
     return ""
+
+
+def _of_a_design(name: str) -> str:
+    """The design of a cylindrical roller bearing that the catalogue has some series of; or ""."""
+    match = re.fullmatch(r"([A-Z]+)\d{3,}[A-Z0-9]*", name)
+    return match[1] if match and _series_of(match[1]) else ""
+
+
+def _series_of(design: str) -> list[str]:
+    return [name for name, row in _series().items() if design and row["design"] == design]
 
 
 def _parsed(name: str) -> tuple[dict[str, str], str, str] | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
@@ -10,6 +11,10 @@ from typing import Any
 
 from flexcage.case.tables import expanded
 from flexcage.core.binding import default_of
+from flexcage.core.errors import InputError
+
+_CONTROL = re.compile(r"[\x00-\x1f]")
+_LETTERS = {"\n": "n", "\t": "t", "\r": "r", "\b": "b", "\f": "f"}  # after TOML's backslash
 
 
 @cache
@@ -36,7 +41,17 @@ def with_files(table: dict[str, Any], folder: Path, paths: tuple[str, ...]) -> d
 
 
 def absolute(file: str | Path, folder: Path, where: str) -> str:
-    """Absolute path of a file, so that a run's own case.toml finds it from its folder."""
+    """Absolute path of a file, so that a run's own case.toml finds it from its folder. Raises
+    InputError for a control character, which in TOML a backslash in double quotes makes."""
+    if (found := _CONTROL.search(str(file))) and found[0] in _LETTERS:
+        meant = "".join(f"\\{_LETTERS[c]}" if c in _LETTERS else c for c in str(file))
+        raise InputError(
+            f"{where} has a control character, for in double quotes TOML reads "
+            f"\\{_LETTERS[found[0]]} as one; write the path in single quotes, '{meant}', or with "
+            "'/'.",
+            where=where,
+            value=str(file),
+        )
     return str(folder / expanded(file, where=where)) if str(file) else ""
 
 

@@ -85,7 +85,8 @@ def groups() -> list[Group]:
         if _specs(Case, field):
             found += _section(field)
     for cls, (name, section) in SHARED.items():
-        found += _of_spec(section, "", f"A {name}", cls, None)
+        known = f": {', '.join(NAMED[cls])}, or values of its own" if cls in NAMED else ""
+        found += _of_spec(section, "", f"A {name}{known}", cls, None)
     return found
 
 

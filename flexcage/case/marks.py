@@ -1,8 +1,8 @@
-"""What makers write after a designation, as in "6205-2RS C3": seals, shields, the clearance."""
+"""What makers write after a designation, as in "6205-2RS C3", "NU 210 ECP" or "7010 CD/P4A": seals,
+shields, the clearance, the cage, tolerances."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Container
 from dataclasses import dataclass, replace
 from functools import cache
@@ -31,20 +31,28 @@ class Marked:
             outline,
             designation="-".join((self.bare, *self.marks)),
             clearance=None if group is None else _clearance(outline, group),
-            left_out=tuple(
-                f"{m}: {known[m]}, left out: flexcage has none." for m in self.marks if m in known
-            ),
+            left_out=tuple(f"{m}: {known[m]}." for m in self.marks if m in known),
         )
 
 
 def split(name: str, known: Container[str]) -> Marked | None:
     """Parts of a designation in capitals without blanks, dashes and strokes, whose bare form is
     ``known``; None if it is none of them, or something else follows."""
-    marks = "|".join(sorted((*_meanings(), *_GROUPS), key=len, reverse=True))
     for at in range(1, len(name)):
-        if name[:at] in known and re.fullmatch(rf"(?:{marks})+", name[at:]):
-            return Marked(bare=name[:at], marks=tuple(re.findall(marks, name[at:])))
+        if name[:at] in known and (marks := _marks_in(name[at:])):
+            return Marked(bare=name[:at], marks=marks)
     return None
+
+
+def _marks_in(text: str) -> tuple[str, ...]:
+    """The marks that make up a text, long ones first where it can be read in two ways; none if
+    something else is in it."""
+    for mark in sorted((*_meanings(), *_GROUPS), key=len, reverse=True):
+        if text == mark:
+            return (mark,)
+        if text.startswith(mark) and (more := _marks_in(text[len(mark) :])):
+            return (mark, *more)
+    return ()
 
 
 def _clearance(outline: Outline, group: str) -> ClearanceGroup:
@@ -70,4 +78,8 @@ def _limits(text: str) -> tuple[float, float]:
 
 @cache
 def _meanings() -> dict[str, str]:
-    return {row["mark"]: row["meaning"] for row in rows("marks")}
+    """What every mark means, and what there is instead, where flexcage has no such thing."""
+    return {
+        row["mark"]: f"{row['meaning']}, {row['instead'] or 'left out: flexcage has none'}"
+        for row in rows("marks")
+    }

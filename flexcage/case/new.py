@@ -54,7 +54,8 @@ def new_case(outline: Outline, source: str, *, cage: str | None = None) -> NewCa
     inside = inside_of(BEARING_TYPES[outline.type])
     candidates = ranked(inside.candidates(outline))
     _check_cage(cage, candidates[0].bearing.element)
-    propose = proposal_of(cage or inside.cages[outline.type])
+    usual = inside.cages[outline.type]
+    propose = proposal_of(cage or usual)
     refused = None
     for candidate in candidates:
         try:
@@ -69,7 +70,18 @@ def new_case(outline: Outline, source: str, *, cage: str | None = None) -> NewCa
             candidates=candidates,
         )  # fmt: skip
     assert refused is not None  # there is a candidate, or ``ranked`` has raised
-    raise refused
+    if cage in (None, usual):
+        raise refused
+    raise InputError(
+        f"No {cage} cage of usual proportions fits into {_called(outline)}: "
+        f"{str(refused).rstrip('.')}; take --cage {usual}, the usual one of such bearings.",
+        where="cage.type",
+        value=cage,
+    )
+
+
+def _called(outline: Outline) -> str:
+    return outline.designation or "this bearing"
 
 
 def _check_cage(cage: str | None, element: str) -> None:

@@ -14,18 +14,20 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from flexcage.core.binding import Binder, told_elsewhere
+from flexcage.core.binding import Binder, near_names, told_elsewhere
 from flexcage.core.errors import InputError
 from flexcage.core.registry import add, check_free
 from flexcage.core.toml import read_toml
 from flexcage.core.units import parse
 from flexcage.geometry.bearing import OTHER_DESIGNS, Bearing
 from flexcage.geometry.materials import MATERIALS, Material
+from flexcage.geometry.other_kinds import kind_of
 
 # specs that text may give by name
 NAMED: Mapping[type, Mapping[str, Any]] = MappingProxyType({Material: MATERIALS})
 
 _META = ("preset", "assumptions", "sources")
+_ALIKE = 0.65  # of a name and a preset's, from which on the preset may be meant
 _ADDED: dict[str, Preset] = {}  # by register_preset
 
 
@@ -88,15 +90,33 @@ def load_preset(name: str) -> Preset:
         return _ADDED[name]
     names = preset_names()
     if name not in names:
-        design = told_elsewhere(name, OTHER_DESIGNS)
         raise InputError(
-            f"bearing.preset '{name}' is not known; presets are {', '.join(names)}, and any other "
-            "bearing is described by its dimensions in [bearing] and [cage]"
-            f"{f'; {design}' if design else ''}.",
+            f"bearing.preset '{name}' is not known; {_near_preset(name, names)}presets are "
+            f"{', '.join(names)}, and any other bearing is described by its dimensions in "
+            f"[bearing] and [cage]{_instead_of_preset(name)}.",
             where="bearing.preset",
             value=name,
         )
     return _load_shipped(name)
+
+
+def _near_preset(name: str, names: list[str]) -> str:
+    close = near_names(name, names, 2, cutoff=_ALIKE)
+    return f"the nearest is {' or '.join(repr(n) for n in close)}; " if close else ""
+
+
+def _instead_of_preset(name: str) -> str:
+    """What else there is of a bearing that no preset describes, as the end of a sentence."""
+    from flexcage.case.catalogue import find  # late: it imports what needs presets
+
+    told = told_elsewhere(name, OTHER_DESIGNS)
+    design = f"; {told}" if told else ""
+    try:
+        designation = find(name).outline.designation
+    except InputError:
+        declined = kind_of(name)
+        return design if told or not declined else f"; '{name}' {declined}"
+    return f": 'flexcage new {designation}' writes such a case{design}"
 
 
 @cache

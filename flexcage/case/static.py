@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 from flexcage.case.checks import check_static_case
 from flexcage.case.files import file_paths, with_files
@@ -33,6 +33,7 @@ from flexcage.core.binding import (
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option
 from flexcage.geometry.bearing import Bearing, check_type
+from flexcage.geometry.other_kinds import SURROUNDINGS
 from flexcage.geometry.ring import InnerRing, OuterRing
 from flexcage.system.spec import Drive, Load, Mount
 from flexcage.system.statics.options import StaticOptions
@@ -64,6 +65,7 @@ class StaticCase:
     mount: Mount = option(Mount(), doc="what holds the outer ring")
     static: StaticOptions = option(StaticOptions(), doc="how a static solution is meant")
 
+    elsewhere: ClassVar[Mapping[str, str]] = SURROUNDINGS
     _in_motion = False  # does it read all of [mount], or the housing's body alone?
 
     def __post_init__(self) -> None:
@@ -96,7 +98,7 @@ class StaticCase:
         known = own | _of_a_simulation()
         for key in merged:
             if key not in known:
-                raise unknown_key(key, [*known - {*ALIASES.values(), "given"}], "")
+                raise unknown_key(key, [*known - {*ALIASES.values(), "given"}], "", SURROUNDINGS)
         binder = Binder(named=NAMED, si=si)
         bearing = merged.get("bearing")
         if isinstance(bearing, Mapping):

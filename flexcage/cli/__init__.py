@@ -14,7 +14,7 @@ from contextlib import suppress
 from errno import ENAMETOOLONG
 from typing import TYPE_CHECKING, NoReturn
 
-from flexcage.core import stopping
+from flexcage.core import printable, stopping
 
 if TYPE_CHECKING:
     import argparse
@@ -36,6 +36,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; the exit code."""
     global _running
     begun = time.perf_counter()
+    printable.on_any_terminal()
     parser = build_parser()
     args = parser.parse_args(argv)
     args.begun = begun

@@ -113,7 +113,7 @@ def prepare_file(path: Path, endings: Iterable[str], *, force: bool) -> None:
         )
     if path.is_dir():
         raise InputError(f"'{path}' is a folder; name a file.", where="out", value=str(path))
-    if path.exists() and not force:
+    if (path.exists() or path.is_symlink()) and not force:
         raise InputError(f"'{path}' exists already; --force writes it anew.", where="out")
     if not path.parent.is_dir() or not os.access(path.parent, os.W_OK):
         raise InputError(f"'{path.parent}' is not a folder that can be written.", where="out")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from flexcage.cli.files import prepare_file
 from flexcage.cli.parser import command, say
+from flexcage.core.writing import write_text
 
 if TYPE_CHECKING:
     from flexcage.core.listing import Listing
@@ -36,7 +37,7 @@ def keys_command(args: argparse.Namespace) -> int:
 
     if not args.wanted:
         say(keys.contents().text())
-        say("\n'flexcage keys SECTION' lists its keys, 'flexcage keys TEXT' finds keys by a text.")
+        say("\n'flexcage keys SECTION' lists its keys.\n'flexcage keys TEXT' finds keys by a text.")
         return 0
     listings = [group.listing() for wanted in args.wanted for group in keys.chosen(wanted)]
     page = keys.PAGE.format(", ".join(args.wanted), " ".join(args.wanted))
@@ -64,6 +65,6 @@ def _show(listings: Iterable[Listing], args: argparse.Namespace, page: str) -> i
     out = Path(args.out)
     prepare_file(out, (".md",), force=args.force)
     text = "\n".join([page, *(listing.markdown() for listing in listings)])
-    out.write_text(f"{text.rstrip()}\n", encoding="utf-8")
+    write_text(out, f"{text.rstrip()}\n")
     say(f"written: {out}")
     return 0

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from flexcage.cli.files import prepare_file
 from flexcage.cli.parser import command, say
+from flexcage.core.listing import wrapped
+from flexcage.core.writing import write_text
 
 if TYPE_CHECKING:
     from flexcage.geometry.inside import Outline
@@ -49,9 +51,10 @@ def new_command(args: argparse.Namespace) -> int:
     out = Path(args.out or f"{case_name(outline)}.toml")
     prepare_file(out, (".toml",), force=args.force)
     made = new_case(outline, source, cage=args.cage)
-    out.write_text(made.text, "utf-8")
+    write_text(out, made.text)
     for line in made.findings():
-        say(line)
+        first = " " * (len(line) - len(line.lstrip()))
+        say(wrapped(line.lstrip(), first=first, rest="  "))
     say(f"written: {out}")
     return 0
 
@@ -62,9 +65,12 @@ def _outline(args: argparse.Namespace) -> tuple[Outline, str]:
     from flexcage.case.catalogue import WAY, find
     from flexcage.core.errors import InputError
     from flexcage.core.units import parse
+    from flexcage.geometry.bearing import check_type
     from flexcage.geometry.inside import Outline
 
     name = " ".join(args.designation)
+    if args.type is not None:
+        check_type(args.type)
     given: dict[str, Any] = {
         key: _positive(parse(text, unit, where=option), option, text)
         for option, key, unit, _ in (*_DIMENSIONS, *_FURTHER)

@@ -10,6 +10,7 @@ from typing import Any
 from flexcage.cli.files import prepare_file, prepare_out, run_folder
 from flexcage.cli.parser import case_options, command, picture_options, say
 from flexcage.cli.settings import case_from, look_of, settings_of
+from flexcage.core.errors import InputError
 from flexcage.core.garbage import while_loading
 
 
@@ -28,6 +29,10 @@ def _add_run(commands: Any) -> None:
     again = run.add_mutually_exclusive_group()
     again.add_argument("--resume", action="store_true", help="go on with a run that stopped")
     again.add_argument("--force", action="store_true", help="write an existing run anew")
+    run.add_argument(
+        "--other-version", action="store_true",
+        help="with --resume: go on although a flexcage of other physics began the run",
+    )  # fmt: skip
     picture_options(run)
     run.add_argument("--no-images", action="store_true", help="results only")
 
@@ -73,6 +78,8 @@ def _add_converge(commands: Any) -> None:
 
 def run_command(args: argparse.Namespace) -> int:
     """flexcage run CASE: simulate, summarise, draw."""
+    if args.other_version and not args.resume:
+        raise InputError("--other-version belongs to --resume.", where="other-version")
     case, look = case_from(args), look_of(args)
     args.out = out = Path(args.out) if args.out else Path("runs") / case.name
     with run_folder(out, resume=args.resume, force=args.force):
@@ -81,7 +88,9 @@ def run_command(args: argparse.Namespace) -> int:
             from flexcage.simulate import simulate
 
         say(f"Inner ring: {case.held_in_words}")
-        run = simulate(case, out=out, resume=args.resume, progress=Progress)
+        run = simulate(
+            case, out=out, resume=args.resume, other_version=args.other_version, progress=Progress
+        )
         run.stages.begun = args.begun
         run.tell_times()
         say(run.summary.brief())

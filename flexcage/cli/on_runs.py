@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+import re
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -18,12 +20,19 @@ def add_commands(commands: Any) -> None:
     render.add_argument("run", metavar="RUN", help="run folder")
     render.add_argument("-o", "--out", metavar="DIR", help="folder for the pictures")
     picture_options(render)
+    render.add_argument("--only", nargs="+", metavar="NAME", help="only these pictures, as orbit")
+    render.add_argument(
+        "--format", choices=("png", "svg", "pdf"),
+        help="of curves (default: png); scenes are always .png",
+    )  # fmt: skip
     _add_export(commands)
     text = "write a run or a study as one HTML page that needs no other file"
     report = command(commands, "report", report_command, text)
     report.add_argument("folder", metavar="RUN_OR_STUDY", help="folder of a run or a study")
     report.add_argument("-o", "--out", metavar="FILE", help="page (default: report.html in it)")
-    report.add_argument("--force", action="store_true", help="write over an existing file")
+    report.add_argument(
+        "--force", action="store_true", help="write over a file that is no page of flexcage"
+    )
     report.add_argument(
         "--points", metavar="N,N", help="of a study: points whose stress is shown (default: six)"
     )
@@ -42,14 +51,18 @@ def add_commands(commands: Any) -> None:
     )
     compare.add_argument("what", nargs="+", metavar="CASE|RUN", help="a case, or two run folders")
     compare.add_argument("--set", action="append", metavar="PATH=VALUE", help="change a value")
-    compare.add_argument("-o", "--out", metavar="DIR", help="folder for table, plot and runs")
+    compare.add_argument("--all", action="store_true", help="print every figure, not ten")
+    compare.add_argument(
+        "-o", "--out", metavar="DIR",
+        help="folder for table, picture, page and runs (default: runs/NAME-compare)",
+    )  # fmt: skip
     compare.add_argument("--force", action="store_true", help="write an existing folder anew")
 
 
 def _add_export(commands: Any) -> None:
     text = (
-        "write a run's cage, deformed and stressed, as a .vtu series for ParaView, or a case's "
-        "reduced cage as matrices for other programs"
+        "write a run's variables as a table, or its cage, deformed and stressed, as a .vtu series "
+        "for ParaView; or a case's reduced cage as matrices for other programs"
     )
     export = command(commands, "export", export_command, text)
     export.add_argument("run", metavar="RUN|CASE", help="run folder, or case file (.toml)")
@@ -63,6 +76,11 @@ def _add_export(commands: Any) -> None:
         "--full", action="store_true", help="of a case: matrices of all nodes, not reduced"
     )
     export.add_argument("--text", action="store_true", help="of a case: an .op4 as text")
+    export.add_argument(
+        "--table", nargs="+", metavar=("FILE", "VARIABLE"), help="of a run: these variables "
+        "('flexcage variables' lists them; also stress, stress_peak, film_thickness, events and "
+        "steps) as .csv, .parquet or .mat",
+    )  # fmt: skip
     export.add_argument(
         "--from", dest="begin", metavar="TIME", help="first instant, as '3 ms' (default without "
         "--to and --count: 0.4 ms about the largest stress)",
@@ -81,16 +99,36 @@ def render_command(args: argparse.Namespace) -> int:
     look = look_of(args)
     run = load_run(existing_run(args.run), progress=Progress)
     out = Path(args.out) if args.out else Path(args.run) / "images"
-    run.draw(out, animate=args.animate, **look)
-    say(f"The pictures are in {out}")
+    if look and not args.only and any(out.glob("*.png")):
+        args.only = _changed(run, look, animate=args.animate)
+    given: dict[str, Any] = dict(look)
+    given |= {name: value for name in ("only", "format") if (value := getattr(args, name))}
+    run.draw(out, animate=args.animate, **given)
+    drawn = f"Drawn anew: {', '.join(args.only)}. " if args.only else ""
+    say(f"{drawn}The pictures are in {out}")
     return 0
 
 
+def _changed(run: Any, look: Mapping[str, float], *, animate: bool) -> list[str]:
+    """Names of the run's pictures that change with --view, --stress-limit or --scale."""
+    from flexcage.render.album import changed_by
+
+    found = changed_by(look, [*run.picture_names, *(["stress"] if animate else [])])
+    if not found:
+        options = ", ".join(f"--{name.replace('_', '-')}" for name in look)
+        raise InputError(
+            f"No picture of this run changes with {options}: its cage is rigid.", where="render"
+        )
+    return found
+
+
 def export_command(args: argparse.Namespace) -> int:
-    """flexcage export RUN: displacement and stress of the cage over time, for ParaView; or
-    flexcage export CASE: its reduced cage."""
+    """flexcage export RUN: displacement and stress of the cage over time, for ParaView, or with
+    --table its variables; or flexcage export CASE: its reduced cage."""
     if Path(args.run).suffix == ".toml":
         return _export_body(args)
+    if args.table:
+        return _export_table(args)
     for name in ("set", "full", "text"):
         if getattr(args, name):
             raise InputError(f"--{name} belongs to a case, and '{args.run}' is a run.", where=name)
@@ -106,8 +144,28 @@ def export_command(args: argparse.Namespace) -> int:
     return 0
 
 
+def _export_table(args: argparse.Namespace) -> int:
+    """Write variables of a run."""
+    for name, option in (
+        ("out", "-o"), ("begin", "--from"), ("end", "--to"), ("count", "--count"),
+        ("set", "--set"), ("full", "--full"), ("text", "--text"),
+    ):  # fmt: skip
+        if getattr(args, name):
+            raise InputError(f"{option} does not go with --table.", where=option)
+    file, *variables = args.table
+    from flexcage.core.progress import Progress
+    from flexcage.simulate import load_run
+
+    run = load_run(existing_run(args.run), progress=Progress)
+    for path in run.write_table(file, variables or None, force=args.force):
+        say(f"written: {path}")
+    return 0
+
+
 def _export_body(args: argparse.Namespace) -> int:
     """Write the reduced cage of a case, or its full matrices."""
+    if args.table:
+        raise InputError(f"--table belongs to a run, and '{args.run}' is a case.", where="table")
     args.case = args.run
     case = case_from(args)
     for name, option in (("begin", "from"), ("end", "to"), ("count", "count")):
@@ -170,8 +228,11 @@ def report_command(args: argparse.Namespace) -> int:
         if points is not None:
             raise InputError(f"--points belongs to a study, and '{folder}' is a run.")
     out = Path(args.out) if args.out else folder / "report.html"
-    prepare_file(out, (".html",), force=args.force)
     from flexcage.core.progress import Progress
+    from flexcage.report.page import is_page
+
+    # a page of ours is written anew, and a link is replaced: what it points to stays as it is
+    prepare_file(out, (".html",), force=args.force or out.is_symlink() or is_page(out))
 
     if is_study:
         from flexcage.study.results import StudyResults
@@ -218,7 +279,7 @@ def _numbers(text: str) -> list[int]:
 def compare_command(args: argparse.Namespace) -> int:
     """flexcage compare CASE (rigid against flexible), or RUN RUN."""
     from flexcage.core.progress import Progress
-    from flexcage.study.compare import compare, compare_case
+    from flexcage.study.compare import compare, compare_case, short_names
 
     if len(args.what) == 2:
         if len({Path(path).resolve() for path in args.what}) == 1:
@@ -226,19 +287,35 @@ def compare_command(args: argparse.Namespace) -> int:
                 f"compare was given '{args.what[0]}' twice; name two runs.", where="compare"
             )
         first, second = (existing_run(path) for path in args.what)
-        out = Path(args.out) if args.out else Path("compare")
-        prepare_out(out, resume=False, force=args.force, resumable=False)
-        say(compare(first, second, out=out))
-        return 0
-    if len(args.what) != 1 or Path(args.what[0]).is_dir():
-        raise InputError(
-            "compare needs one case (a .toml file), or two run folders; it was given "
-            f"{' '.join(args.what)}.",
-            where="compare",
-        )
-    args.case = args.what[0]
-    case = case_from(args)
-    out = Path(args.out) if args.out else Path("runs") / f"{case.name}-compare"
-    prepare_out(out, resume=False, force=args.force, resumable=False)
-    say(compare_case(case, out=out, progress=Progress))
+        if args.set:
+            raise InputError("--set belongs to a case, and two runs were given.", where="set")
+        both = "-".join(re.sub(r"[^\w.-]+", "-", n) for n in short_names(first, second))
+        out = _comparison_folder(args, f"{both}-compare")
+        found = compare(first, second, out=out)
+    else:
+        if len(args.what) != 1 or Path(args.what[0]).is_dir():
+            raise InputError(
+                "compare needs one case (a .toml file), or two run folders; it was given "
+                f"{' '.join(args.what)}.",
+                where="compare",
+            )
+        args.case = args.what[0]
+        case = case_from(args)
+        out = _comparison_folder(args, f"{case.name}-compare")
+        found = compare_case(case, out=out, progress=Progress)
+    say(found.text(every=args.all))
+    more = "" if args.all else "; its compare.txt has all figures"
+    say(f"\nPicture and page (report.html) are in {out}{more}")
     return 0
+
+
+def _comparison_folder(args: argparse.Namespace, name: str) -> Path:
+    """The folder for a comparison, prepared; one of ours that holds no runs is written anew."""
+    from flexcage.study.compare import MODELS
+
+    out = Path(args.out) if args.out else Path("runs") / name
+    ours = (out / "compare.json").is_file() and not any((out / m).exists() for m in MODELS)
+    if ours and len(args.what) == 2:
+        return out
+    prepare_out(out, resume=False, force=args.force, resumable=False)
+    return out

@@ -9,6 +9,7 @@ from typing import Any
 from flexcage.bearings import in_motion
 from flexcage.cli.files import prepare_file
 from flexcage.cli.parser import command, say
+from flexcage.core.listing import aligned, wrapped
 
 
 def add_commands(commands: Any) -> None:
@@ -45,24 +46,27 @@ def presets_command(args: argparse.Namespace) -> int:
     from flexcage.core.binding import flat
 
     if args.name is None:
-        for name in preset_names():
-            say(f"{name:<12} {load_preset(name).title}")
+        say(aligned([(name, load_preset(name).title) for name in preset_names()]))
         return 0
     preset = load_preset(args.name)
-    say(preset.title)
-    for path, value in flat(preset.tables):
-        reason = preset.assumptions.get(path)
-        say(f"  {path:<30} {value!s:<12} {f'assumption: {reason}' if reason else ''}".rstrip())
+    reasons = preset.assumptions
+    say(wrapped(preset.title))
+    rows = [(path, str(v), _assumed(reasons.get(path))) for path, v in flat(preset.tables)]
+    say(aligned(rows, indent=2))
     if beside := _beside(preset):
         say("\n  and in a case that says no more:")
-    for path, (value, reason) in beside.items():
-        say(f"  {path:<38} {value:<20} assumption: {reason}")
+        rows = [(path, value, _assumed(reason)) for path, (value, reason) in beside.items()]
+        say(aligned(rows, indent=2))
     say()
     for name, stated, computed in preset.ratings():
         say(f"  {name}: catalogue {stated / 1e3:.1f} kN, from this inside {computed / 1e3:.2f} kN")
     for name, text in preset.sources.items():
-        say(f"  {name}: {text}")
+        say(wrapped(f"{name}: {text}", first="  ", rest="    "))
     return 0
+
+
+def _assumed(reason: str | None) -> str:
+    return f"assumption: {reason}" if reason else ""
 
 
 def _beside(preset: Any) -> dict[str, tuple[str, str]]:
@@ -81,8 +85,7 @@ def verify_command(args: argparse.Namespace) -> int:
 
     cases = chosen(args.names, quick=args.quick)
     if args.list:
-        for case in cases:
-            say(f"{case.name:<24} {'quick' if case.quick else 'long':<6} {case.title}")
+        say(aligned([(c.name, "quick" if c.quick else "long", c.title) for c in cases]))
         return 0
     out = Path(args.out) if args.out else None
     if out is not None:
@@ -102,9 +105,9 @@ def doctor_command(args: argparse.Namespace) -> int:
     lacking = 0
     for finding in probe():
         word = "ok" if finding.ok else ("LACKS" if finding.needed else "could be better")
-        say(f"{finding.name:<14} {word:<16} {finding.detail}")
+        say(wrapped(finding.detail, first=f"{finding.name:<14} {word:<16} "))
         if not finding.ok:
-            say(f"{'':<14} remedy: {finding.remedy}")
+            say(wrapped(f"remedy: {finding.remedy}", first=" " * 15))
             lacking += finding.needed
     return 1 if lacking else 0
 

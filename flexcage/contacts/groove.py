@@ -60,10 +60,10 @@ class Groove(NamedTuple):
     friction: np.ndarray  # (N_FRICTION,)
     rolling: np.ndarray  # (3,) moment of rolling resistance: factor, powers of speed and load
     wave: np.ndarray  # (3,) and
-    spall: np.ndarray  # (4,) as in ``contacts.uneven``
+    spall: np.ndarray  # (5,) as in ``contacts.uneven``
     sides: np.ndarray  # (2,) angles across the groove between which the spall lies
     reach: float  # half of the ellipse's length over the root of the depth
-    spot: np.ndarray  # (3,) of the ball that has one, as in ``uneven.ride_on_spot``
+    spot: np.ndarray  # (4,) of the ball that has one, as in ``uneven.ride_on_spot``
     uneven: int  # 1 if there is a wave or a spall (records hold no booleans)
 
 

@@ -62,10 +62,10 @@ class RaceSide(NamedTuple):
     rolling: np.ndarray  # (2,) rolling resistance
     hydro: float  # 2 R/Rw: pressure share of the rolling resistance
     wave: np.ndarray  # (3,) and
-    spall: np.ndarray  # (4,) as in ``contacts.uneven``
+    spall: np.ndarray  # (5,) as in ``contacts.uneven``
     spalled: np.ndarray  # (ns,) share of each slice that lies over the spall
     uneven: int  # 1 if there is a wave or a spall (records hold no booleans)
-    spot: np.ndarray  # (4,) of the roller that has one: half angle, 0, depth, drop over angle^2
+    spot: np.ndarray  # (5,) of the roller that has one, as a spall's on it
     spotted: np.ndarray  # (ns,) share of each slice that lies on the spot
 
 

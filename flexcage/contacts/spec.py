@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
-from flexcage.core.spec import option, quantity
+from flexcage.core.spec import OtherThan, option, quantity
 from flexcage.geometry.bearing import RingLand
 from flexcage.geometry.film import Oil
+from flexcage.geometry.other_kinds import SURROUNDINGS
 
 # Names of laws, and the spec that a name brings along, None for the one below; ``contacts.laws``
 # registers further ones.
@@ -173,6 +176,7 @@ class PairSpec:
     )
 
 
+_MEETS = {"kind": OtherThan(("none",))}
 _NO_LAND = (0.25e-3, 3.5e-3)  # m, clearance and width of a land that meets nothing
 _OF_FACING = 0.9  # width of a land over the length on which cage and ring face each other
 
@@ -187,16 +191,22 @@ class LandSpec:
 
     kind: str = option("dry", doc="land contact", choices=("none", "dry", "film"))
     clearance: float | None = quantity(
-        "mm", None, doc="radial land clearance; by default what cage and ring leave", above=0.0
+        "mm",
+        None,
+        doc="radial land clearance; by default what cage and ring leave",
+        above=0.0,
+        when=_MEETS,
     )
     width: float | None = quantity(
         "mm", None, doc="width of one land; by default nine tenths of what faces the ring",
-        above=0.0,
+        above=0.0, when=_MEETS,
         assumption="nine tenths of where an end of the cage faces the ring, to two digits; the "
         "rest are rounded edges",
     )  # fmt: skip
-    normal: NormalLaw = option(NormalLaw(restitution=0.7), doc="normal law")
-    friction: FrictionLaw = option(FrictionLaw(static=0.1, dynamic=0.05), doc="friction law")
+    normal: NormalLaw = option(NormalLaw(restitution=0.7), doc="normal law", when=_MEETS)
+    friction: FrictionLaw = option(
+        FrictionLaw(static=0.1, dynamic=0.05), doc="friction law", when=_MEETS
+    )
 
     def on(self, ring: RingLand | None) -> LandSpec:
         """The same with clearance and width as numbers, from where cage and ring face each other.
@@ -237,6 +247,8 @@ class Contacts:
 @dataclass(frozen=True, kw_only=True)
 class Lubricant:
     """Lubricant and what it does apart from traction: rolling resistance and drag."""
+
+    elsewhere: ClassVar[Mapping[str, str]] = SURROUNDINGS
 
     name: str = option(
         "ISO VG 32 at 70 C", doc="name", assumption="neither oil nor temperature is given"

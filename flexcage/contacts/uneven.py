@@ -1,5 +1,9 @@
 """Waves and spalls of a race: how far it stands out or lets an element sink, over the azimuth.
 
+An element feels an edge over the width of its contact, not at a line: how far it sinks is the mean
+over that width (``spread``). So forces have no jumps, where an element stands on both edges of a
+short spall there is an equilibrium, and integrators see what they step over.
+
 Balls ride on an uneven groove by ``ride``. Their contact is seen as a row of strips across the
 ellipse, each of which presses in proportion to its own depth d - y^2/c^2 at y across, for c half of
 the ellipse's length over the root of d. That is Hertz's force, energy and distribution of load,
@@ -20,20 +24,30 @@ if TYPE_CHECKING:
     from flexcage.geometry.bearing import Bearing
 
 LEAST_SHARE = 1e-12  # of the energy on an even groove: less is rounding
+# pressure of a contact at whose half width edges are felt; 1 to 2 GPa are usual in bearings
+_FELT_AT = 1.0e9
+
+
+def spread(effective: float, modulus: float) -> float:
+    """Half of the width [m] over which an edge is felt: that of a line contact of ``_FELT_AT``,
+    with an ``effective`` radius [m] and a plane strain modulus E/(1 - nu^2) [Pa] of both bodies."""
+    return 4.0 * _FELT_AT * effective / modulus
 
 
 def uneven_race(
     bearing: Bearing, ring: str, radius: float, effective: float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Waves (3,) of the "inner" or "outer" ring's race: amplitude [m], order, azimuth of a crest;
-    and its spall (4,): half angle, azimuth, depth, and drop over the square of an angle.
+    and its spall (5,): half angle, azimuth, depth, drop over the square of an angle, and half of
+    the angle over which an edge is felt, 0 where there is none.
 
     ``radius``: the race's about the bearing's axis; ``effective``: that of element and race.
     """
     wave = [getattr(bearing, f"{ring}_waviness{of}") for of in ("", "_order", "_azimuth")]
     spall, bend = getattr(bearing, f"{ring}_spall"), radius**2 / (2.0 * effective)
     half = 0.5 * spall.length / radius
-    return np.array(wave, float), np.array([half, spall.azimuth, spall.depth, bend])
+    felt = spread(effective, bearing.material.plane_strain_modulus) / radius if half else 0.0
+    return np.array(wave, float), np.array([half, spall.azimuth, spall.depth, bend, felt])
 
 
 def is_uneven(wave: np.ndarray, spall: np.ndarray) -> int:
@@ -55,16 +69,40 @@ def sunk_at(spall, phi):
     """How far an element sinks into a spall, >= 0, and its slope over phi [m, m/rad].
 
     Its centre goes down by (l - |x|)^2/(2 R) at a distance x from the spall's middle, as it turns
-    about the edge at l, until it rolls on the bottom.
+    about the edge at l, until it rolls on the bottom; of that the mean over the contact's width.
     """
-    half, middle, depth, bend = spall
+    half, middle, depth, bend, felt = spall
     off = (phi - middle + pi) % (2.0 * pi) - pi
-    beyond = half - abs(off)
-    if beyond <= 0.0:
+    return sunk_beside(off, half, depth, bend, felt)
+
+
+@part
+def sunk_beside(off, half, depth, bend, felt):
+    """The same at ``off`` from the middle; all along the race by one measure, angle or length."""
+    if abs(off) >= half + felt:
         return 0.0, 0.0
-    if bend * beyond * beyond < depth:
-        return bend * beyond * beyond, -2.0 * bend * copysign(beyond, off)
-    return depth, 0.0
+    before, after = off - felt, off + felt
+    sunk = _filled(after, half, depth, bend) - _filled(before, half, depth, bend)
+    rise = _sharp(after, half, depth, bend) - _sharp(before, half, depth, bend)
+    return sunk / (2.0 * felt), rise / (2.0 * felt)
+
+
+@part
+def _sharp(x, half, depth, bend):
+    """How far an element sinks that feels an edge at a line."""
+    beyond = max(half - abs(x), 0.0)
+    return min(bend * beyond * beyond, depth)
+
+
+@part
+def _filled(x, half, depth, bend):
+    """Integral of ``_sharp`` from the middle to x."""
+    wall = min(sqrt(depth / bend), half)  # from the edge to the bottom
+    beyond = max(half - abs(x), 0.0)
+    if beyond >= wall:
+        return depth * x
+    bottom = half - wall
+    return copysign(depth * bottom + bend * (wall**3 - beyond**3) / 3.0, x)
 
 
 @outlined
@@ -88,15 +126,10 @@ def ride(race, phi, place, depth):
 @outlined
 def ride_on_spot(race, spot, along, across, depth):
     """The same of a ball whose spot has its middle ``along`` and ``across`` the groove from the
-    contact [m]; slopes over depth and both places. ``spot`` (3,): half of its length and width, its
-    depth, and the drop over the square of a length."""
-    half, deep, bend = spot
-    beyond, sunk, steep = half - abs(along), 0.0, 0.0
-    if beyond > 0.0:
-        sunk = bend * beyond * beyond
-        steep = -2.0 * bend * copysign(beyond, along)
-        if sunk >= deep:
-            sunk, steep = deep, 0.0
+    contact [m]; slopes over depth and both places. ``spot`` (4,): half of its length and width, its
+    depth, the drop over the square of a length, and half of that over which an edge is felt."""
+    half, deep, bend, felt = spot
+    sunk, steep = sunk_beside(along, half, deep, bend, felt)
     counts, by_depth, by_sunk, by_shift = _press(
         race.reach, across - half, across + half, sunk, depth
     )

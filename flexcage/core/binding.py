@@ -26,6 +26,7 @@ from flexcage.core.units import describe, format_si, limits_of, parse
 
 MISSING = dataclasses.MISSING
 _NUMBERS = {float: numbers.Real, int: numbers.Integral}  # numpy's as well
+_PUNCTUATION = re.compile(r"[\s_/.-]")
 _LARGEST = 2**63 - 1  # whole number
 _IN_WORDS = {
     float: "a number", int: "a whole number", bool: "true or false", str: "text", Path: "a path",
@@ -547,6 +548,20 @@ def told_elsewhere(name: str, elsewhere: Mapping[str, str]) -> str:
 
 
 def did_you_mean(text: str, known: Iterable[str], otherwise: str) -> str:
+    """The nearest of known names, or ``otherwise`` and all of them."""
     names = [str(k) for k in known]
-    close = difflib.get_close_matches(text, names, n=1, cutoff=0.6)
+    close = near_names(text, names, 1)
     return f"the nearest known one is '{close[0]}'" if close else f"{otherwise} {', '.join(names)}"
+
+
+def near_names(text: str, known: Iterable[str], most: int = 3, *, cutoff: float = 0.6) -> list[str]:
+    """At most so many known names that are like a text, the nearest first, whatever their case; if
+    none is, those that are when spaces and strokes do not count either."""
+    names = list(known)
+    for plain in (str.casefold, lambda name: _PUNCTUATION.sub("", name.casefold())):
+        meant: dict[str, list[str]] = {}
+        for name in names:
+            meant.setdefault(plain(name), []).append(name)
+        if close := difflib.get_close_matches(plain(text), meant, n=most, cutoff=cutoff):
+            return [name for key in close for name in meant[key]][:most]
+    return []

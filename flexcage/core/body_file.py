@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from flexcage.core.spec import option
+from flexcage.core.spec import GIVEN, option
 
 #: Systems of units of a body's files; ``modes.door.systems`` says what they are in SI.
 SYSTEM_NAMES = ("m-kg-s", "mm-t-s", "mm-kg-ms", "in-lbf-s")
@@ -26,11 +26,13 @@ class BodyFile:
         doc="deck that says where its nodes are (.bdf, .dat, .nas, .asm, .inp, .cdb), if the file "
         "itself does not",
         file=True,
+        when={"body": GIVEN},
         legacy="",
     )
     body_units: str = option(
         SYSTEM_NAMES[0],
         doc="system of units of both files",
         choices=SYSTEM_NAMES,
+        when={"body": GIVEN},
         legacy=SYSTEM_NAMES[0],
     )

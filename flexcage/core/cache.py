@@ -12,8 +12,6 @@ import logging
 import os
 import shutil
 import tempfile
-import zipfile
-import zlib
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -21,9 +19,11 @@ from pathlib import Path
 
 import numpy as np
 
+from flexcage.core.arrays import UNREADABLE, read_arrays
+from flexcage.core.trust import distrusted, make_private
+
 logger = logging.getLogger(__name__)
 
-_BROKEN = (zipfile.BadZipFile, zlib.error, ValueError, OSError, EOFError, KeyError)
 _DEFAULT_LIMIT_GB = 4.0
 _ROOM = 1_000_000  # bytes that a folder must have room for, or it counts as full
 
@@ -42,7 +42,7 @@ def cache_root() -> Path:
 
 def check_writable(folder: Path) -> None:
     """Raise OSError if a folder cannot be made, or has no room for a file of some size."""
-    folder.mkdir(parents=True, exist_ok=True)
+    make_private(folder)
     with tempfile.TemporaryFile(dir=folder) as file:
         file.write(b"0" * _ROOM)
 
@@ -61,6 +61,18 @@ def tell_unwritable(path: Path, error: OSError) -> None:
         "run; make room there, or set FLEXCAGE_CACHE_DIR to a folder that can be written",
         folder, (error.strerror or str(error)).lower(),
     )  # fmt: skip
+
+
+def trusted(folder: Path) -> bool:
+    """Whether nobody else may have written to a folder of the cache; says once if one may have."""
+    reason = distrusted(folder)
+    if reason and folder not in _told:
+        _told.add(folder)
+        logger.warning(
+            "the cache folder '%s' is not used: %s, and what others put there could run as yours; "
+            "set FLEXCAGE_CACHE_DIR to a folder of your own", folder, reason,
+        )  # fmt: skip
+    return not reason
 
 
 def cache_limit() -> int:
@@ -86,6 +98,8 @@ def cached_arrays(
     names those that are read, where not all are, and ``without`` those that are not; all come back
     where they had to be made.
     """
+    if not trusted(cache_root()):
+        return {name: np.asarray(value) for name, value in make().items()}
     path = cache_root() / "arrays" / kind / f"{key}.npz"
     found = _read(path, only, without)
     if found is not None:
@@ -104,10 +118,12 @@ def _read(path: Path, only: Sequence[str], without: Sequence[str]) -> Arrays | N
     if not path.is_file():
         return None
     try:
-        with np.load(path, allow_pickle=False) as stored:
-            names = only or [name for name in stored.files if name not in without]
-            arrays = {name: stored[name] for name in names}
-    except _BROKEN as exc:
+        arrays = read_arrays(
+            path, wanted=lambda name: name in only if only else name not in without
+        )
+        if missing := set(only) - arrays.keys():
+            raise KeyError(sorted(missing)[0])
+    except (OSError, *UNREADABLE) as exc:
         logger.warning("cache entry %s cannot be read (%s); it is made anew", path.name, exc)
         return None
     try:
@@ -122,7 +138,7 @@ def _lock(path: Path) -> Iterator[None]:
     import filelock
 
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
+        make_private(path.parent)
         lock = filelock.FileLock(str(path) + ".lock")
         lock.acquire()
     except OSError as exc:

@@ -16,9 +16,12 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
+from math import isinf
 
 from flexcage.core.cache import cache_root, check_writable
-from flexcage.core.errors import is_full
+from flexcage.core.errors import install, is_full
+from flexcage.core.memory import total_memory
+from flexcage.core.trust import distrusted
 
 APT_RENDER = "sudo apt-get install -y libegl1 libgl1 libosmesa6 libxrender1"
 APT_GMSH = (
@@ -159,13 +162,16 @@ def _solver() -> Finding:
         "linear solver",
         False,
         "SciPy's SuperLU only: fine meshes from files take several times as long",
-        'pip install "flexcage[fast]"',
+        install("fast"),
         needed=False,
     )
 
 
 def _cache_folder() -> Finding:
     folder = cache_root()
+    if reason := distrusted(folder):
+        remedy = "set FLEXCAGE_CACHE_DIR to a folder of your own"
+        return Finding("cache folder", False, f"{folder}: {reason}", remedy, needed=False)
     try:
         check_writable(folder)
     except OSError as exc:
@@ -189,6 +195,10 @@ def _kernel_cache() -> Finding:
     from flexcage.core.kernel_cache import damaged
 
     folder = cache_root() / "kernels"
+    if reason := distrusted(folder):
+        detail = f"{folder}: {reason}; kernels are compiled anew in every run"
+        remedy = "set FLEXCAGE_CACHE_DIR to a folder of your own"
+        return Finding("kernel cache", False, detail, remedy, needed=False)
     bad = damaged(folder)
     if not bad:
         return Finding("kernel cache", True, str(folder), needed=False)
@@ -205,9 +215,8 @@ def _cores() -> Finding:
 
 
 def _memory() -> Finding:
-    try:
-        total = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    except (AttributeError, ValueError, OSError):
+    total = total_memory()
+    if isinf(total):
         return Finding("memory", True, "unknown", needed=False)
     ok = total >= _MINIMUM_MEMORY
     remedy = "" if ok else "take mesh.fineness = 'coarse'; the medium mesh may want up to 4 GB"

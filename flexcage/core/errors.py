@@ -56,6 +56,11 @@ class EnvironmentLacks(FlexcageError, RuntimeError):
     exit_code = 1
 
 
+def install(extra: str) -> str:
+    """How one installs an extra: from a clone, for no index of packages has flexcage."""
+    return f"in the folder of flexcage's sources:  pip install '.[{extra}]'"
+
+
 def package_lacks(
     work: str, package: str, *, extra: str, pip: str = "", instead: str = ""
 ) -> EnvironmentLacks:
@@ -65,8 +70,8 @@ def package_lacks(
     ``pip`` its name for pip if that is another, ``instead`` what else to do.
     """
     return EnvironmentLacks(
-        f"{work} by {package}, which is not installed here; install it with  "
-        f'pip install "flexcage[{extra}]"  (or  pip install {pip or package}){instead}.'
+        f"{work} by {package}, which is not installed here; install it "
+        f"{install(extra)}  (or anywhere:  pip install {pip or package}){instead}."
     )
 
 

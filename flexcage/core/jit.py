@@ -8,7 +8,6 @@ files (``kernel_cache``).
 
 from __future__ import annotations
 
-import hashlib
 import os
 import struct
 import warnings
@@ -19,36 +18,7 @@ import numpy as np
 
 from flexcage.core.cache import cache_root
 from flexcage.core.garbage import uncollected
-
-_PACKAGE = Path(__file__).resolve().parents[1]
-_FEEDING = ("bearings", "cages", "contacts", "solve", "system")  # rooms
-
-
-def kernel_sources() -> list[Path]:
-    """Source files that define or feed kernels, in a fixed order.
-
-    In some rooms kernels take in plain functions and constants of files that have no import to be
-    known by; what a specification says reaches kernels as arguments.
-    """
-    return sorted(
-        p
-        for p in _PACKAGE.rglob("*.py")
-        if (_room(p) in _FEEDING and p.name not in ("options.py", "spec.py"))
-        or any(mark in p.read_text("utf-8") for mark in ("core.jit import", "from numba"))
-    )
-
-
-def _room(path: Path) -> str:
-    return path.relative_to(_PACKAGE).parts[0]
-
-
-def source_hash(files: list[Path]) -> str:
-    """Hash of file names and contents, and of numba's and numpy's versions through the caller."""
-    digest = hashlib.sha256()
-    for path in files:
-        digest.update(path.name.encode())
-        digest.update(path.read_bytes())
-    return digest.hexdigest()[:16]
+from flexcage.core.sources import kernel_sources, source_hash
 
 
 def kernel_cache_dir() -> Path:
@@ -77,6 +47,7 @@ from numba.extending import (  # noqa: E402
 from flexcage.core.kernel_cache import KernelCache, KernelFolder  # noqa: E402
 from flexcage.core.kernel_values import short_name  # noqa: E402
 from flexcage.core.numba_changes import PART_NAME, own_compilation  # noqa: E402
+from flexcage.core.trust import make_private  # noqa: E402
 from flexcage.core.users_files import contents_key  # noqa: E402
 
 numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]  # type: ignore[attr-defined]
@@ -213,7 +184,7 @@ def mark_compiled(what: str) -> None:
     if kernels_cached(what) or place is None:
         return
     try:
-        place.mkdir(parents=True, exist_ok=True)
+        make_private(place)
         _mark(place, what).touch()
     except OSError as error:
         _folder.refuse(error)

@@ -4,7 +4,7 @@ numba's own cache raises whatever the disk or a damaged file gives it, and where
 keeps kernels beside the sources, where a change in a callee goes unseen. Here every entry carries
 a checksum: one that cannot be read is removed, and its kernel compiled anew. A folder that cannot
 be written is read as far as it goes; what is compiled is then kept in a temporary folder, as long
-as the process lives.
+as the process lives. So it is where another user may write to the folder (``trust``).
 
 Kernels of the user's own lie in a folder for what his files hold (``users_files``). A kernel of
 flexcage's for types of the user's own is found by their names: numba would keep the types, and a
@@ -17,12 +17,14 @@ import atexit
 import logging
 import os
 import pickle
+import pickletools
 import shutil
 import tempfile
 import zlib
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 from numba import types
 from numba.core.caching import (
@@ -34,7 +36,8 @@ from numba.core.caching import (
 from numba.core.serialize import dumps
 from numba.core.typing import Signature
 
-from flexcage.core.cache import check_writable, tell_unwritable
+from flexcage.core.cache import check_writable, tell_unwritable, trusted
+from flexcage.core.trust import distrusted_file, make_private
 from flexcage.core.users_files import contents_key
 
 log = logging.getLogger(__name__)
@@ -61,20 +64,27 @@ class KernelFolder:
         self._spare: Path | None = None
         self._given_up = False
         self._told_damage = False
+        self._trusted: bool | None = None
 
     @property
     def places(self) -> tuple[Path, ...]:
-        """Folders in which a kernel may lie."""
-        return (self.path,) if self._spare is None else (self._spare, self.path)
+        """Folders in which a kernel may lie, that nobody else can write to."""
+        if self._trusted is None:
+            self._trusted = trusted(self.path)
+            if not self._trusted:
+                self._take_spare()
+        own = (self.path,) if self._trusted else ()
+        return own if self._spare is None else (self._spare, *own)
 
     @property
     def place(self) -> Path | None:
         """Folder to write to; None if there is none."""
-        return None if self._given_up else self.places[0]
+        places = self.places
+        return None if self._given_up else places[0]
 
     def ensure_writable(self) -> None:
         """Take a temporary folder if the cache's cannot be written."""
-        if self._spare is not None or self._given_up:
+        if self.place is None or self._spare is not None:
             return
         try:
             check_writable(self.path)
@@ -87,6 +97,10 @@ class KernelFolder:
             self._given_up = True
             return False
         tell_unwritable(self.path, error)
+        return self._take_spare()
+
+    def _take_spare(self) -> bool:
+        """Write to a temporary folder from now on; False if there is none."""
         try:
             self._spare = Path(tempfile.mkdtemp(prefix="flexcage-kernels-"))
         except OSError:
@@ -117,10 +131,20 @@ class _Checked(IndexDataCacheFile):
         entry = super().load(key)
         return None if entry is None else pickle.loads(_opened(entry))
 
+    def check_owner(self) -> None:
+        """ValueError if a file of the function's was not put there by this user."""
+        for path in self._paths():
+            with suppress(FileNotFoundError):
+                if distrusted_file(path):
+                    raise ValueError("it belongs to another user")
+
+    def _paths(self) -> list[Path]:
+        index = Path(self._index_path)
+        return [index, *index.parent.glob(f"{index.stem}.*.nbc")]
+
     def remove(self) -> None:
         """Remove the function's files, as far as they can be."""
-        folder, name = Path(self._index_path).parent, Path(self._index_path).stem
-        for path in (Path(self._index_path), *folder.glob(f"{name}.*.nbc")):
+        for path in self._paths():
             try:
                 path.unlink(missing_ok=True)
             except OSError:
@@ -200,6 +224,7 @@ class KernelCache(FunctionCache):
         for place in self._folder.places:
             self._cache_file = self._files(place)
             try:
+                self._cache_file.check_owner()
                 found = super().load_overload(sig, target_context)
             except NotADirectoryError:
                 continue  # no cache at all: what writes to it says so
@@ -216,7 +241,7 @@ class KernelCache(FunctionCache):
         while (place := self._folder.place) is not None:
             self._cache_file = self._files(place)
             try:
-                self._folder_in(place).mkdir(parents=True, exist_ok=True)
+                make_private(self._folder_in(place))
                 return super().save_overload(sig, data)
             except OSError as error:
                 self._folder.refuse(error)
@@ -228,18 +253,31 @@ class KernelCache(FunctionCache):
 
 
 def damaged(folder: Path) -> list[Path]:
-    """Files of compiled kernels in a folder that cannot be read."""
+    """Files of compiled kernels in a folder that cannot be read. They are looked at, not loaded:
+    that would run what they hold."""
     found = []
     for path in sorted(folder.rglob(f"*{_OURS}.*")):
         try:
-            if path.suffix == ".nbi":
-                with open(path, "rb") as file:
-                    pickle.load(file)
-                    pickle.load(file)
-            elif path.suffix == ".nbc":
-                _opened(pickle.loads(path.read_bytes()))
-        except (FileNotFoundError, ImportError, AttributeError):
-            continue  # another process removed it; or it names types of a user's own file
+            with open(path, "rb") as file:
+                if path.suffix == ".nbi":
+                    _values(file), _values(file)
+                elif path.suffix == ".nbc":
+                    (checksum, *_), (content, *_) = _values(file)
+                    _opened((checksum, content))
+        except FileNotFoundError:
+            continue  # another process removed it
         except Exception:
             found.append(path)
     return found
+
+
+def _values(file: IO[bytes]) -> tuple[list[Any], list[Any]]:
+    """The whole numbers and the bytes in a pickle, which is not loaded; an error for one that is
+    cut short."""
+    numbers, contents = [], []
+    for code, value, _ in pickletools.genops(file):
+        if code.name.startswith(("BININT", "LONG")):
+            numbers.append(value)
+        elif "BINBYTES" in code.name:
+            contents.append(value)
+    return numbers, contents

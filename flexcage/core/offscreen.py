@@ -19,6 +19,8 @@ from pathlib import Path
 from flexcage.core import environment
 from flexcage.core.cache import cache_root
 from flexcage.core.errors import EnvironmentLacks
+from flexcage.core.trust import make_private
+from flexcage.core.writing import write_text
 
 #: Parts of names of environment variables that bear on what VTK draws with.
 _MATTERS = ("DISPLAY", "EGL", "MESA", "LIBGL", "GALLIUM", "VTK", "LD_LIBRARY_PATH", "CUDA")
@@ -41,8 +43,8 @@ def opening_window() -> Iterator[None]:
         os.environ[environment.WINDOW_VARIABLE] = window
     yield
     with suppress(OSError):  # then it is looked for again
-        note.parent.mkdir(parents=True, exist_ok=True)
-        note.write_text(window, "utf-8")
+        make_private(note.parent)
+        write_text(note, window)
 
 
 def _taken(note: Path) -> str | None:

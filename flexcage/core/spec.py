@@ -7,11 +7,32 @@ so that a unit, a bound and a sentence of documentation are written once, beside
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
+from enum import Enum
 from types import MappingProxyType
 from typing import Any
 
 MISSING = dataclasses.MISSING
+
+
+class Presence(Enum):
+    """Is another value there at all? Zero, an empty text or list, and None are not."""
+
+    GIVEN = "given"
+    ABSENT = "absent"
+
+
+GIVEN, ABSENT = Presence.GIVEN, Presence.ABSENT
+
+
+class OtherThan(tuple):
+    """All values but these: those that a user registers may read what they like."""
+
+
+#: By name of another value of the spec: the values, or the presence, with which a value is read.
+#: All of a mapping must hold; of several mappings, one.
+Condition = Mapping[str, "Collection[Any] | Presence"]
+When = Condition | Sequence[Condition]
 
 
 def quantity(
@@ -24,13 +45,15 @@ def quantity(
     maximum: float | None = None,
     assumption: str = "",
     of: Collection[str] = (),
+    when: When = (),
     legacy: Any = MISSING,
 ) -> Any:
     """A physical value held in SI; ``unit`` is the unit a person would write ("mm", "rpm").
 
     ``minimum`` and ``maximum`` are inclusive and ``above`` exclusive bounds, in SI.
     ``assumption`` says why a default that no source gives was chosen. ``of`` names those of the
-    spec's laws (``law``) that read the value; without it all do. ``legacy`` as for ``option``.
+    spec's laws (``law``) that read the value; without it all do. ``when`` says which other values
+    of the spec make anything read this one (``When``). ``legacy`` as for ``option``.
     """
     meta = {
         "unit": unit,
@@ -40,6 +63,7 @@ def quantity(
         "maximum": maximum,
         "assumption": assumption,
         "of": of,
+        "when": when,
         "legacy": legacy,
     }
     return dataclasses.field(default=default, metadata=meta)
@@ -54,6 +78,7 @@ def option(
     maximum: float | None = None,
     assumption: str = "",
     of: Collection[str] = (),
+    when: When = (),
     legacy: Any = MISSING,
     elsewhere: Mapping[str, str] = MappingProxyType({}),
     file: bool = False,
@@ -62,8 +87,8 @@ def option(
 
     Choices that are a mapping may grow while the program runs (``core.registry``). It gives the
     spec that a name brings along with values of its own, a subclass of the one at hand, or None.
-    ``assumption`` and ``of`` as for ``quantity``. ``legacy`` is for an option that is added
-    later: what was done before, which leaves the hashes of specs as they were
+    ``assumption``, ``of`` and ``when`` as for ``quantity``. ``legacy`` is for an option that is
+    added later: what was done before, which leaves the hashes of specs as they were
     (``core.hashing``). ``elsewhere`` maps patterns of names that are asked for here, and are not
     known, to what flexcage has instead. ``file``: the value is the path of a file, relative to the
     case's own, whose bytes count.
@@ -75,6 +100,7 @@ def option(
         "maximum": maximum,
         "assumption": assumption,
         "of": of,
+        "when": when,
         "legacy": legacy,
         "elsewhere": elsewhere,
         "file": file,

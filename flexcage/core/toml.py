@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from typing import Any
 
 from flexcage.core.errors import InputError
 
+_ESCAPE = re.compile(r"backslash|[Ee]scape|hex")  # of tomllib's reasons
 _DEEPEST = 20  # tables and lists in one another; a case has five
 
 
@@ -16,6 +18,11 @@ def read_toml(text: str, name: str, *, where: str = "") -> dict[str, Any]:
         table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as exc:
         reason = str(exc).rstrip(".")
+        if _ESCAPE.search(reason):
+            reason += (
+                "; in double quotes a backslash begins a special character: write a path as "
+                "'C:\\folder\\file' in single quotes, or with '/'"
+            )
         raise InputError(f"{name} is not valid TOML: {reason}.", where=where) from exc
     except ValueError as exc:  # Python reads whole numbers of up to 4300 digits
         raise InputError(

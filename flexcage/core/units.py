@@ -16,6 +16,7 @@ from importlib import resources
 from typing import Any
 
 from flexcage.core.errors import InputError, shown
+from flexcage.core.unit_names import wrong_name
 
 # unit: (kind, power of ten, factor) to SI; the power shifts the decimal text, so that 78.4 mm
 # becomes exactly the number 0.0784 and not its neighbour
@@ -99,6 +100,7 @@ _LIMITS: dict[str, tuple[float, float]] = {
     "temperature": (1e-3, 1e4),
 }
 _DECIMAL_COMMA = re.compile(r"\s*[+-]?\d+,\d+\s*\D")
+_THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2},\d{3}(?!\d)")
 _NUMBER = re.compile(
     r"\s*([+-]?(?:\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?|inf))\s*(.*?)\s*$"
 )
@@ -114,10 +116,13 @@ _SPELLINGS: tuple[tuple[re.Pattern, Any], ...] = (
     (re.compile(r"\b[rR]\.?[pP]\.?[mM]\b\.?"), "rpm"),
     (re.compile(r"\b(m?)Pas\b"), r"\1Pa*s"),  # pint takes it for the plural of Pa
     (re.compile(r"^/"), "1/"),
+    (re.compile("℃"), "°C"),
+    (re.compile("℉"), "°F"),
+    (re.compile(r"\bkp\b"), "kgf"),  # kilopond
 )
 _TON = re.compile(r"\b[kM]?tons?\b")  # 907 kg for pint, and 1000 kg for most engineers
 _STEP = re.compile(r"delta_|Δ")
-_ODD = re.compile(r"\d{3}|\d\s*\^|%\s*\w")  # powers that take pint for ever, parts of a unit
+_ODD = re.compile(r"\d{3}|\d\s*\^|%\s*\w|\w\s*%")  # powers that take pint for ever, parts of a unit
 _ANGLE = "[plane_angle]"
 # pint's angles have no dimension, so that 100 Hz would pass for 100 rad/s and N*m for N*m/rad
 _DEFINITIONS = (
@@ -160,15 +165,10 @@ def parse(value: object, unit: str, *, where: str = "value") -> float:
 
     Raises InputError for a bare number, for an unknown unit, and for one of another kind.
     """
-    if isinstance(value, (int, float)) and not isinstance(value, bool):
+    if isinstance(value, (int, float)) and not isinstance(value, bool) and value == value:
         raise _no_unit(value, unit, where)
     if isinstance(value, str) and _DECIMAL_COMMA.match(value):
-        raise InputError(
-            f"{where} is '{value}'; write decimals with a point, '{value.replace(',', '.', 1)}', "
-            f"and thousands without a comma, '{value.replace(',', '')}'.",
-            where=where,
-            value=value,
-        )
+        raise _with_comma(value, where)
     parts = split(value) if isinstance(value, str) else None
     if parts is None:
         given = repr(value) if isinstance(value, str) else shown(value)
@@ -188,6 +188,12 @@ def parse(value: object, unit: str, *, where: str = "value") -> float:
         found = float(shifted) * have[2]
     else:
         found = _parse_by_pint(float(number), given, unit, where, value)
+    if found < 0.0 and _COMMON.get(unit, ("",))[0] == "temperature":
+        raise InputError(
+            f"{where} is '{value}', which is below absolute zero, -273.15 degC.",
+            where=where,
+            value=value,
+        )
     if (math.isinf(found) and number.is_finite()) or (found == 0.0 and number != 0):
         size = "large" if found else "small"
         raise InputError(
@@ -196,6 +202,15 @@ def parse(value: object, unit: str, *, where: str = "value") -> float:
             value=value,
         )
     return found
+
+
+def _with_comma(value: str, where: str) -> InputError:
+    """Error for a number with a comma, which may part thousands only before three digits."""
+    point, none = value.strip().replace(",", ".", 1), value.strip().replace(",", "")
+    text = f"write '{point}', with a point"
+    if _THOUSANDS.match(value):
+        text = f"write decimals with a point, '{point}', and thousands without a comma, '{none}'"
+    return InputError(f"{where} is '{value}'; {text}.", where=where, value=value)
 
 
 def _shifted(number: Decimal, power: int) -> Decimal:
@@ -214,8 +229,12 @@ def _no_unit(value: object, unit: str, where: str) -> InputError:
 
 def _parse_by_pint(number: float, given: str, unit: str, where: str, value: object) -> float:
     def refused(sentence: str) -> InputError:
-        return InputError(f"{where} is '{value}', {sentence}.", where=where, value=value)
+        end = "" if sentence.endswith("?") else "."
+        return InputError(f"{where} is '{value}', {sentence}{end}", where=where, value=value)
 
+    word, meant = wrong_name(_spelled(given))
+    if word:
+        raise refused(f"but '{word}' is not a known unit; {meant or f'write it in {unit}'}")
     try:
         quantity = _quantity(number, given)
     except Exception as exc:  # pint's parser raises assorted errors on malformed text
@@ -225,6 +244,8 @@ def _parse_by_pint(number: float, given: str, unit: str, where: str, value: obje
     if _TON.search(given):
         raise refused("but a ton has 1000 kg or 2000 lb; write it in 't' (1000 kg), kg or lb")
     wanted = _quantity(1.0, unit).units
+    if _names_angle(quantity) and _ANGLE not in quantity.dimensionality:
+        raise refused(f"in whose unit an angle cancels; write it in {unit}")
     if quantity.dimensionality == wanted.dimensionality:
         return float(quantity.to(wanted).to_base_units().magnitude)
     found = _without_angle(quantity, wanted.dimensionality, refused)
@@ -238,11 +259,23 @@ def _parse_by_pint(number: float, given: str, unit: str, where: str, value: obje
 
 def _quantity(number: float, given: str) -> Any:
     """pint's quantity of a unit in any of its usual spellings."""
-    for pattern, instead in _SPELLINGS:
-        given = pattern.sub(instead, given)
+    given = _spelled(given)
     if len(given) > _LONGEST or _ODD.search(given):
         raise ValueError(given)
     return _registry().Quantity(number, given)
+
+
+def _spelled(given: str) -> str:
+    """A unit's text with usual spellings as pint writes them."""
+    for pattern, instead in _SPELLINGS:
+        given = pattern.sub(instead, given)
+    return given
+
+
+def _names_angle(quantity: Any) -> bool:
+    """Is one of the units that make up a quantity's an angle, or counts angles?"""
+    registry = _registry()
+    return any(_ANGLE in registry.get_dimensionality(name) for name, _ in quantity.unit_items())
 
 
 def _without_angle(

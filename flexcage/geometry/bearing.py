@@ -14,12 +14,14 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 import numpy as np
 
-from flexcage.core.binding import check_value
+from flexcage.core.binding import check_value, told_elsewhere
+from flexcage.core.errors import InputError
 from flexcage.core.spec import option
 from flexcage.core.units import typeset
 from flexcage.core.wings import FAMILIES, Parts
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.film import Film, Oil
+from flexcage.geometry.other_kinds import kind_of, named_kind
 
 Spec = type  # by another name, for inside the spec ``type`` is a field
 
@@ -77,6 +79,15 @@ def type_name(default: str) -> Any:
 
 def check_type(name: Any) -> None:
     """Raise InputError for a type of bearing that there is not."""
+    if isinstance(name, str) and name not in BEARING_TYPES:
+        declined = named_kind(name) or kind_of(name)
+        if declined and not told_elsewhere(name, OTHER_DESIGNS):
+            raise InputError(
+                f"bearing.type '{name}' is not known: {declined.removeprefix('is ')}; choose from "
+                f"{', '.join(BEARING_TYPES)}.",
+                where="bearing.type",
+                value=name,
+            )
     check_value(name, Bearing.__dataclass_fields__["type"].metadata, "bearing.type")
 
 
@@ -91,6 +102,7 @@ class Bearing:
     cage_spec: ClassVar[Spec]
     # contacts of which [contacts] speaks, beside the cage's land
     places: ClassVar[tuple[str, ...]] = ("race", "pocket", "side", "rib")
+    sliced: ClassVar[tuple[str, ...]] = ("race", "pocket")  # those cut in slices or strips
     carries_axial_load: ClassVar[bool] = False  # in a run, with the ring free axially and in tilt
     elsewhere: ClassVar[Mapping[str, str]] = {}  # patterns of keys that it has not: what there is
 

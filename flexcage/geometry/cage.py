@@ -8,7 +8,7 @@ from math import nan, pi
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from flexcage.core.errors import InputError
-from flexcage.core.spec import option, quantity
+from flexcage.core.spec import GIVEN, option, quantity
 from flexcage.core.units import describe, typeset
 from flexcage.core.wings import CAGE_TYPES, Parts
 from flexcage.geometry.materials import MATERIALS, Material
@@ -51,10 +51,13 @@ class Cage:
     )  # fmt: skip
     guidance: str = option("", doc="what guides the cage radially")
     unbalance: float = quantity("g*mm", 0.0, doc="mass-radius product of an unbalance", minimum=0.0)
-    unbalance_phase: float = quantity("deg", 0.0, doc="azimuth of the unbalance from pocket 0")
-    unbalance_offset: float = quantity(
-        "mm", 0.0, doc="place of the unbalance along +x from the cage's middle: a couple as well"
+    unbalance_phase: float = quantity(
+        "deg", 0.0, doc="azimuth of the unbalance from pocket 0", when={"unbalance": GIVEN}
     )
+    unbalance_offset: float = quantity(
+        "mm", 0.0, doc="place of the unbalance along +x from the cage's middle: a couple as well",
+        when={"unbalance": GIVEN},
+    )  # fmt: skip
 
     def rivet_joint(
         self, pitch_diameter: float, pocket_count: int, root_radius: float

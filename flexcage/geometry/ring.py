@@ -11,6 +11,7 @@ from flexcage.geometry.materials import Material
 
 RINGS = ("rigid", "flexible")
 SUPPORTED = ("arcs", "points")  # seats that hold a ring here and there
+_BENDS = {"ring": ("flexible",)}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,18 +23,24 @@ class FlexibleRing:
     """
 
     ring: str = option("rigid", doc="does the ring bend?", choices=RINGS)
-    material: Material | None = option(None, doc="material of the ring (default: the bearing's)")
-    diameter: float | None = quantity(
-        "mm", None, doc="diameter of its seat (default: the bearing's)", above=0.0
+    material: Material | None = option(
+        None, doc="material of the ring (default: the bearing's)", when=_BENDS
     )
-    seat: str = option("rigid", doc="what holds the ring", choices=("rigid", "foundation"))
+    diameter: float | None = quantity(
+        "mm", None, doc="diameter of its seat (default: the bearing's)", above=0.0, when=_BENDS
+    )
+    seat: str = option(
+        "rigid", doc="what holds the ring", choices=("rigid", "foundation"), when=_BENDS
+    )
     foundation: float = quantity(
         "N/mm^3", 1e13, doc="stiffness of a foundation, per area of the seat", above=0.0,
+        when={**_BENDS, "seat": ("foundation",)},
         assumption="10 N/um on every square millimetre: 20 mm of steel behind the seat",
     )  # fmt: skip
 
     relaxation: float = quantity(
         "us", 1e-5, doc="time in which a race yields to a load in a run, by 63 %", above=0.0,
+        when=_BENDS,
         assumption="half and twice as long moves no force by 1 %; half of it damps an outer ring "
         "that swings in proportion to its stiffness, 3 % of the critical at 2 kHz, as joints do",
     )  # fmt: skip
@@ -66,19 +73,28 @@ class InnerRing(FlexibleRing):
 class OuterRing(FlexibleRing):
     """The outer ring in its housing, which stands.
 
-    Two seats hold it here and there: "arcs" press on it and never pull, "points" (bolts, pins) hold
-    it both ways, all of them across the axis. Along the axis, in tilt and about the axis the seat
-    then holds the ring evenly.
+    Two seats hold it here and there, across the axis: "arcs" are rigid saddles that press wherever
+    the ring lies on them and never pull; "points" (bolts, pins) each hold it both ways by one force
+    in the middle of their arc, about which it pivots. Along the axis, in tilt and about the axis
+    the seat then holds the ring evenly.
     """
 
     seat: str = option(
-        "rigid", doc="what holds the ring", choices=("rigid", "foundation", *SUPPORTED)
+        "rigid", doc="what holds the ring", choices=("rigid", "foundation", *SUPPORTED), when=_BENDS
     )
     supports: tuple[float, ...] = quantity(
-        "deg", (), doc="azimuths of the supports' middles, for seats 'arcs' and 'points'"
+        "deg",
+        (),
+        doc="azimuths of the supports' middles, for seats 'arcs' and 'points'",
+        when=_BENDS,
     )
     support_arc: float = quantity(
-        "deg", pi / 18, doc="angle that each support takes", above=0.0, maximum=pi / 2
+        "deg",
+        pi / 18,
+        doc="angle that each support takes",
+        above=0.0,
+        maximum=pi / 2,
+        when={**_BENDS, "seat": SUPPORTED},
     )
 
     @property

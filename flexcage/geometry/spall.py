@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from flexcage.core.spec import quantity
+from flexcage.core.spec import GIVEN, quantity
 from flexcage.core.units import mm, typeset
 
 if TYPE_CHECKING:
     from flexcage.geometry.bearing import Bearing
+
+_IS = {"length": GIVEN}
 
 #: What asks for a spall in other words, and where it is given (``Bearing.elsewhere``).
 BY_RACE: Mapping[str, str] = {
@@ -31,10 +33,17 @@ class Spall:
     """
 
     length: float = quantity("mm", 0.0, doc="length along the race; 0: no spall", minimum=0.0)
-    depth: float = quantity("um", 100.0e-6, doc="depth", above=0.0)
-    azimuth: float = quantity("deg", 0.0, doc="azimuth of its middle on its ring, from y towards z")
-    width: float | None = quantity("mm", None, doc="axial width (default: all)", above=0.0)
-    offset: float = quantity("mm", 0.0, doc="axial distance of its middle from the race's")
+    depth: float = quantity("um", 100.0e-6, doc="depth", above=0.0, when=_IS)
+    azimuth: float = quantity(
+        "deg", 0.0, doc="azimuth of its middle on its ring, from y towards z", when=_IS
+    )
+    width: float | None = quantity(
+        "mm", None, doc="axial width (default: all)", above=0.0, when=_IS
+    )
+    offset: float = quantity(
+        "mm", 0.0, doc="axial distance of its middle from the race's",
+        when={**_IS, "width": GIVEN},
+    )  # fmt: skip
 
     def covered(self, centres: np.ndarray, slice_width: float) -> np.ndarray:
         """Share (n,) of slices of a roller that stands in the middle of the race, by the axial

@@ -11,6 +11,7 @@ import numpy as np
 from flexcage.core.errors import FlexcageError, InputError, RunFailed, mistake_in
 from flexcage.core.progress import Silent
 from flexcage.integrate.divergence import first_undefined, hardest, runaway
+from flexcage.integrate.foresight import EVERY, Foresight
 from flexcage.integrate.recorded import recorded, recorded_names
 from flexcage.integrate.recording import Recording
 from flexcage.integrate.rings import carried
@@ -58,7 +59,8 @@ _REMEMBERED = (
     "pocket_force",
     "pocket_force_before",
 )  # of Events by checkpoints
-LOG_ROWS = 20_000  # steps that are logged at a time
+LEAK = 0.1  # of the allowed error of work: energy that a step may gain or lose without a work
+LOG_ROWS = EVERY  # steps that are logged at a time
 
 
 class Integration:
@@ -86,6 +88,7 @@ class Integration:
         self.bound = np.inf  # [s] least stability bound of explicit steps so far
         self._take("bdf" if solver.method == "auto" else solver.method, 0.0, start.y, start.yd)
         self._filter = np.zeros((2, 2, 2))
+        self._foresight = Foresight(solver.max_steps, store.layout.n_time / output.rate)
         begun = store.blocks > 0  # by an earlier flexcage, if it has no loads
         self._keeps_loads = bearing.layout.modes > 0 and not (begun and not store.loads(0))
         saved = store.checkpoint()
@@ -104,7 +107,7 @@ class Integration:
         )
         self.state = self.integrator.new_state(
             time, y, yd, weight=weight, h0=step, quad_weight=self.work_weight,
-            modes=self.bearing.modes,
+            modes=self.bearing.modes, leak_weight=self.work_weight[0] / LEAK,
         )  # fmt: skip
         if before is not None:
             self.state.quad[:] = before.quad
@@ -124,6 +127,8 @@ class Integration:
             log.debug("%s from t = %.4f ms on: explicit steps up to %.3g us are stable", method,
                       self.time * 1e3, step * 1e6)  # fmt: skip
             self._take(method, self.time, y, yd)
+        if self.integrator.bounded:
+            self._foresight.explicit(self.effort.counts["steps"], self.time, step)
         self.options = self.integrator.within(self.integrator.options(self.solver), step)
 
     def _corners(self, end: float) -> np.ndarray:
@@ -189,6 +194,8 @@ class Integration:
                 used += rows
                 if outcome == LOG_FULL:
                     logs.append(log)
+                    mean = float(log[-1, 0] - log[0, 0]) / (LOG_ROWS - 1)
+                    self._foresight.after(self.effort.counts["steps"], self.time, mean)
                     log, used = np.zeros((LOG_ROWS, len(LOG_COLUMNS))), 0
             if outcome != DONE:
                 break

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from flexcage.core.spec import option, quantity
+from flexcage.core.spec import ABSENT, GIVEN, option, quantity
 
+_BUILT = {"file": ABSENT}
 FINENESS = ("coarse", "medium", "fine", "paper")
 
 
@@ -20,15 +21,25 @@ class MeshOptions:
     A file is used as it is: defects are not applied to it but must be in it.
     """
 
-    fineness: str = option("medium", doc="element size by name", choices=FINENESS)
+    fineness: str = option("medium", doc="element size by name", choices=FINENESS, when=_BUILT)
     size: float | None = quantity(
-        "mm", None, doc="element size away from the fillets, instead of the named one", above=0.0
+        "mm",
+        None,
+        doc="element size away from the fillets, instead of the named one",
+        above=0.0,
+        when=_BUILT,
     )
     fillet_size: float | None = quantity(
-        "mm", None, doc="edge length along a fillet's arc, instead of the named one", above=0.0
+        "mm",
+        None,
+        doc="edge length along a fillet's arc, instead of the named one",
+        above=0.0,
+        when=_BUILT,
     )
     order: int = option(2, doc="element order of the displacements: 1 or 2", minimum=1, maximum=2)
     file: str = option(
         "", doc="a mesh file (.msh, .inp, .cdb, .vtu) to read instead of building one", file=True
     )
-    file_unit: str = option("m", doc="unit of length in that file", choices=("m", "mm"))
+    file_unit: str = option(
+        "m", doc="unit of length in that file", choices=("m", "mm"), when={"file": GIVEN}
+    )

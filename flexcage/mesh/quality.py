@@ -13,6 +13,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from flexcage.core.errors import InputError
+from flexcage.core.listing import aligned
 from flexcage.mesh.cage_mesh import (
     POCKET_GROUPS,
     RING_GROUPS,
@@ -76,8 +77,7 @@ class MeshReport:
             ]
         for d in self.defects:
             rows.append((f"defect {d['kind']}", _defect_text(d)))
-        width = max(len(name) for name, _ in rows)
-        return "\n".join(f"{name:<{width}}  {text}" for name, text in rows)
+        return aligned(rows)
 
 
 def _defect_text(d: dict) -> str:

@@ -21,11 +21,15 @@ from typing import Any
 
 import numpy as np
 
-from flexcage.core.errors import RunFailed
+from flexcage.core.errors import InputError, RunFailed
+from flexcage.core.memory import in_bytes, total_memory
+from flexcage.core.units import describe
 from flexcage.geometry.cage import Cage
 
 MM = 1e-3
 RING_SURFACES = ("cut_x", "cut_z", "cut_psi", "land_inner", "land_outer", "end")
+# elements in a cube of their size, as counted on crown cages; bytes that gmsh takes for one
+_PER_CUBE, _BYTES = 5.0, 1500.0
 _STRAIGHT = 1e-3  # mm: a radial edge's extent along x, in which boxes are rounded
 
 
@@ -122,6 +126,22 @@ def grow_from(gmsh: Any, distance: int, plan: SizePlan) -> None:
         option.setNumber(f"Mesh.MeshSize{name}", 0)
     option.setNumber("Mesh.Optimize", 1)
     option.setNumber("Mesh.OptimizeNetgen", 1)
+
+
+def generate(gmsh: Any, plan: SizePlan) -> None:
+    """Mesh the solids; InputError before that for more elements than this machine has room for."""
+    volume = sum(gmsh.model.occ.getMass(*e) for e in gmsh.model.getEntities(3))
+    count = max(_PER_CUBE * volume / (plan.size / MM) ** 3, plan.arc_edges * plan.radial_edges)
+    room = total_memory()
+    if _BYTES * count > room:
+        raise InputError(
+            f"Elements of {describe(plan.size, 'mm')} make about {count:.2g} of them in a part of "
+            f"one pocket's sector, which take {in_bytes(_BYTES * count)} of memory, and this "
+            f"machine has {in_bytes(room)}; give a larger mesh.size.",
+            where="mesh.size",
+            value=plan.size,
+        )
+    gmsh.model.mesh.generate(3)
 
 
 def mesh_arrays(

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from flexcage.core.errors import InputError, unwritable
+from flexcage.core.writing import write_text
 
 Frame = tuple[float, Mapping[str, np.ndarray]]  # time [s]; name to values (n_points, ...)
 
@@ -38,7 +39,7 @@ def write_series(
         meshio.write(folder / file, meshio.Mesh(points, [("tetra", tets)], point_data=data))
         written.append((time, file))
     path = folder / f"{name}.pvd"
-    path.write_text(_collection(written), encoding="utf-8")
+    write_text(path, _collection(written))
     return path
 
 

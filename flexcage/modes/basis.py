@@ -39,12 +39,14 @@ class BodyFit:
     ``stiffness``: a mode's, over that of its shape in the elements, the one farthest from 1.
     ``carried``: the part of the static deflection under a force on a pocket's wall that modes and
     residual vectors hold, the least over the mode table's forces. ``compliance`` [m/N] is the whole
-    deflection under the first of them.
+    deflection under the first of them. ``mass``: a mode's, over that of its shape in the elements,
+    the one farthest from 1.
     """
 
     stiffness: float
     carried: float
     compliance: float
+    mass: float = 1.0
 
 
 @dataclass(frozen=True)

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import scipy.sparse as sp
 
+from flexcage.core.errors import InputError
 from flexcage.fem.model import FEModel
 from flexcage.modes.basis import ModeBasis
 from flexcage.modes.lands import LANDS
@@ -13,9 +16,22 @@ from flexcage.modes.pockets import pocket_frames
 LAND_STATIONS = 24  # round a land
 
 
-def normalised(weights: sp.spmatrix) -> sp.csr_matrix:
-    """Rows divided by their sums, so that each is a weighted mean."""
+def normalised(weights: sp.spmatrix, groups: Sequence[str]) -> sp.csr_matrix:
+    """Rows divided by their sums, so that each is a weighted mean.
+
+    Rows are stations of ``groups``, as many of each; InputError for one without any area.
+    """
     total = np.asarray(weights.sum(axis=1)).ravel()
+    empty = np.flatnonzero(total <= 1e-9 * total.max(initial=0.0))
+    if len(empty):
+        group, station = divmod(int(empty[0]), len(total) // len(groups))
+        raise InputError(
+            f"The cage's mesh has no area of group '{groups[group]}' at its contact station "
+            f"{station + 1} of {len(total) // len(groups)}, and at {len(empty) - 1} others; give a "
+            "group all triangles of its face.",
+            where="mesh",
+            value=groups[group],
+        )
     return sp.csr_matrix(sp.diags_array(1.0 / total) @ weights)
 
 
@@ -29,7 +45,9 @@ def land_station_weights(model: FEModel, n_land: int) -> sp.csr_matrix:
         if name not in model.groups or not len(model.groups[name]):
             rows.append(sp.csr_matrix((n_land, len(model.nodes))))
             continue
-        rows.append(normalised(model.face_weights(model.group(name), _azimuth_hats(n_land))))
+        rows.append(
+            normalised(model.face_weights(model.group(name), _azimuth_hats(n_land)), [name])
+        )
     return sp.csr_matrix(sp.vstack(rows))
 
 

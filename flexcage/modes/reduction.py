@@ -13,17 +13,18 @@ from flexcage.core.cache import cached_arrays
 from flexcage.core.hashing import content_hash
 from flexcage.core.registry import source_of
 from flexcage.core.threads import one_blas_thread
-from flexcage.fem.effort import told_modes
+from flexcage.fem.effort import check_memory, told_modes
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import FEModel, assemble
 from flexcage.geometry.cage import Cage
-from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.mesh.cage_mesh import WALL_GROUPS, CageMesh, pocket_groups
 from flexcage.modes.basis import BodyFit, ContactInterface, ModeBasis
 from flexcage.modes.door.body import ReducedBody
 from flexcage.modes.door.cage import BODY, body_of, full_body_of, given_model
 from flexcage.modes.door.cage_checks import WHERE
 from flexcage.modes.door.formats import read_body
-from flexcage.modes.registry import basis_of_body, basis_version, build_basis
+from flexcage.modes.pockets import LOADS
+from flexcage.modes.registry import basis_of_body, basis_version, build_basis, check_files
 from flexcage.modes.spec import ModesSpec
 from flexcage.modes.storage import (
     basis_arrays,
@@ -117,6 +118,8 @@ class CageReduction:
     @cached_property
     def key(self) -> str:
         """Names model and basis by what they are made from."""
+        if not self.stored:
+            check_files(self.spec)
         return content_hash(
             MODEL_VERSION,
             replace(self.spec, body="", body_nodes=""),
@@ -248,6 +251,13 @@ class CageReduction:
         arrays = self.arrays("interface", key, lambda: interface_arrays(made.reduced(self)))
         return interface_from(made.kind, arrays)
 
+    @property
+    def _vectors(self) -> int:
+        """How many vectors a basis has, about."""
+        walls = pocket_groups(self.mesh.groups) == WALL_GROUPS
+        per_pocket = 0 if walls else LOADS[self.spec.attachments] + 1
+        return self.spec.count + per_pocket * self.mesh.pocket_count
+
     @cached_property
     @one_blas_thread
     def _known(self) -> Mapping[str, np.ndarray]:
@@ -256,6 +266,7 @@ class CageReduction:
 
     @one_blas_thread
     def _make_basis(self) -> dict[str, np.ndarray]:
+        check_memory(self.model, self._vectors)
         count, solver = self.mesh.pocket_count, self.solver
         with told_modes(solver):
             if self.body is not None and not self.body.is_full:

@@ -67,6 +67,14 @@ def register_basis(
     KINDS[name] = spec
 
 
+def check_files(spec: ModesSpec) -> None:
+    """InputError for a file of the spec that is not there: what it held is not known."""
+    for name in ("body", "body_nodes"):
+        file = getattr(spec, name)
+        if file and not Path(file).is_file():
+            raise InputError(f"There is no file '{file}'.", where=f"modes.{name}", value=file)
+
+
 def basis_version(spec: ModesSpec) -> tuple[str | bytes, ...]:
     """What a cached basis depends on besides its spec: the file of a builder from outside, and the
     bytes of a body's files."""

@@ -1,8 +1,8 @@
 """A ring reduced to what its elements and supports feel: compliances, harmonic by harmonic.
 
 Ports are patches of load: two on the raceway, in which an element presses, and one on the seat, on
-which a support presses. Loads on them are Gaussian around the ring. A port's displacement is the
-average with the weights of its load.
+which a support presses. Around the ring, loads on the race are Gaussian, and those of supports are
+even over strips. A port's displacement is the average with the weights of its load.
 
 **Hertz is counted once.** The contact law has the half-space under an element's contact already.
 So its compliance under the very patch is taken away from that of the finite elements
@@ -37,6 +37,9 @@ _CUT = 3.0  # a Gaussian's Fourier coefficients end where they are exp(-_CUT^2/2
 _COARSE = 0.6  # size of triangles, as a share of the wall; at the patch a standard deviation
 _SPREAD = 2.0  # standard deviations from the patch up to which they are so fine
 _GROWTH = 0.4  # of triangles over the distance from there
+_FINE = 0.3  # the same of a ring on supports
+_SHALLOW = 4.2  # waves around the ring, times wall/radius, that do not reach through the wall
+_NARROW = 10.0  # waves, times the width of a strip [rad], up to which supports are summed
 _THIN = 0.02  # share of the wall below which no patch's extent goes
 
 
@@ -72,6 +75,7 @@ class RingReduction:
     rigid: np.ndarray
     ports: np.ndarray  # (3n, 3) nodal loads
     along: float  # [rad] of a patch on the race
+    shallow: float  # compliance of the seat under short waves, times their number
     half_space: np.ndarray  # (2, 2) of the patch on the race
     wider_half_space: np.ndarray  # (2, 2) of one sqrt(2) times as long
 
@@ -100,6 +104,17 @@ class RingReduction:
         )
         return 2.0 * short - wide
 
+    def between_supports(
+        self, azimuth: np.ndarray, width: np.ndarray, of: np.ndarray
+    ) -> np.ndarray:
+        """Compliance (S, S) of the seat between strips at ``azimuth`` (S,) and of ``width`` (S,)
+        [rad]; ``of`` (N + 1,): the seat's in each harmonic, beyond which it is a half-space's."""
+        n = np.arange(max(len(of), ceil(_NARROW / width.min())))
+        whole = np.append(of, self.shallow / n[len(of) :])
+        turn, load = np.multiply.outer(n, azimuth), strip(n[:, None], width)
+        even, odd = load * np.cos(turn), load * np.sin(turn)
+        return even.T @ (whole[:, None] * even) + odd.T @ (whole[:, None] * odd)
+
     def series(
         self, weight: np.ndarray, of: np.ndarray, azimuth: np.ndarray, *, slope: bool = False
     ) -> np.ndarray:
@@ -117,6 +132,12 @@ def spectrum(n: np.ndarray, length: float) -> np.ndarray:
     return np.where(n < 2, 1.0, np.exp(-0.5 * (n * length) ** 2))
 
 
+def strip(n: np.ndarray, width: np.ndarray) -> np.ndarray:
+    """Fourier coefficients of an even load of unit area over a strip of a width [rad]; the first
+    two are those of a point, so that radial forces keep their resultant."""
+    return np.where(n < 2, 1.0, np.sinc(n * width / (2.0 * np.pi)))
+
+
 @lru_cache(maxsize=8)
 def reduce_ring(
     section: RingSection,
@@ -130,7 +151,7 @@ def reduce_ring(
     around the ring, as a share of the wall. Kept for the next solutions with the same ring: do not
     change its arrays."""
     raceway, length = section.raceway, along * section.wall
-    model = Revolved(_mesh(section, length), material)
+    model = Revolved(_mesh(section, length, _FINE if supports else _COARSE), material)
     angle = length / raceway.place[1]
     count = max(LEAST_HARMONICS, A_SUPPORT * supports, ceil(_CUT / angle))
     ports = _ports(model, raceway)
@@ -139,6 +160,10 @@ def reduce_ring(
     for n in range(count + 1):
         shapes[n] = _answers(model, held, ports, n)
         compliance[n] = ports.T @ shapes[n]
+    shallow = _shallow(model, material)
+    if supports:  # triangles are too large for the shortest waves
+        short = np.arange(min(ceil(_SHALLOW * raceway.place[1] / section.wall), count), count + 1)
+        compliance[short, 2, 2] = shallow / short
     return RingReduction(
         model=model,
         raceway=raceway,
@@ -148,6 +173,7 @@ def reduce_ring(
         rigid=ports.T @ model.rigid_motions(1)[:, 0],
         ports=ports,
         along=angle,
+        shallow=shallow,
         half_space=_half_space(raceway, length, material),
         wider_half_space=_half_space(raceway, sqrt(2.0) * length, material),
     )
@@ -222,6 +248,13 @@ def _ports(model: Revolved, raceway: Raceway) -> np.ndarray:
     return np.stack([*over, seat], axis=1)
 
 
+def _shallow(model: Revolved, material: Material) -> float:
+    """Compliance of the seat under a wave far shorter than the wall is thick, in plane strain,
+    times the number of waves around the ring: K. L. Johnson, Contact Mechanics, equation 13.12."""
+    width = model.edge_length("seat", lambda x, r: 1.0 + 0.0 * x)
+    return 2.0 * (1.0 - material.poisson_ratio**2) / (np.pi * material.youngs_modulus * width)
+
+
 def _gaussian(raceway: Raceway, deviation: float) -> Density:
     """Density along the race's edge about the contact's middle; its integral is not yet 1."""
     x0, r0 = raceway.place
@@ -242,8 +275,8 @@ def _half_space(raceway: Raceway, length: float, material: Material) -> np.ndarr
     return normal * np.outer(n, n) + shear * np.outer(t, t)
 
 
-def _mesh(section: RingSection, length: float):
-    """Triangles, fine where elements press."""
+def _mesh(section: RingSection, length: float, coarse: float):
+    """Triangles, fine where elements press; elsewhere ``coarse`` times the wall."""
     raceway, wall = section.raceway, section.wall
     if not wall > 0.0:
         raise InputError(
@@ -256,6 +289,6 @@ def _mesh(section: RingSection, length: float):
     def size(x: float, r: float) -> float:
         away = hypot(x - raceway.place[0], r - raceway.place[1])
         near = [s + _GROWTH * max(away - _SPREAD * s, 0.0) for s in (length, extent)]
-        return min(_COARSE * wall, *near)
+        return min(coarse * wall, *near)
 
     return mesh_section(section.outline, section.names, size)

@@ -7,9 +7,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from flexcage.core.body_file import BodyFile
-from flexcage.core.spec import option, quantity
+from flexcage.core.spec import ABSENT, GIVEN, OtherThan, option, quantity
 from flexcage.geometry.materials import OILED_ASSEMBLY, Material
 
+_COMPUTED = {"body": ABSENT}
+_RITZ = {"kind": OtherThan(("craig_bampton", "free_free"))}
+_BODY = {"body": GIVEN}
 KINDS: dict[str, type | None] = dict.fromkeys(("ritz", "craig_bampton", "free_free"))
 
 
@@ -26,17 +29,22 @@ class DampingBand:
 class ModesSpec(BodyFile):
     """Modal basis of the flexible cage: computed as ``kind`` says, or from a ``body``."""
 
-    kind: str = option("ritz", doc="kind of basis", choices=KINDS)
-    count: int = option(24, doc="number of free (or fixed-interface) eigenmodes", minimum=1)
+    kind: str = option("ritz", doc="kind of basis", choices=KINDS, when=_COMPUTED)
+    count: int = option(
+        24, doc="number of free (or fixed-interface) eigenmodes", minimum=1,
+        when=_COMPUTED,
+    )  # fmt: skip
     dynamic: str = option(
         "free",
         doc="ritz: 'free' keeps attachments quasi-static, 'all' makes every vector dynamic",
         choices=("free", "all"),
+        when=(_BODY, _RITZ),
     )
     crossbeams: bool = option(
         True,
         doc="ritz: add the static shape under a push on every crossbeam as a dynamic coordinate, "
         "so that crossbeams have their own bending with its inertia",
+        when={**_COMPUTED, **_RITZ},
     )
     attachments: str = option(
         "quadratic",
@@ -44,6 +52,7 @@ class ModesSpec(BodyFile):
         "'linear' has uniform and linear ones and is 3 to 6 % too stiff where a roller presses "
         "the middle of a face alone, 'quadratic' has one more and leaves 0.5 to 2 %",
         choices=("linear", "quadratic"),
+        when=(_BODY, {"kind": OtherThan(("free_free",))}),
         legacy="linear",
     )
     damping: float | None = option(
@@ -52,6 +61,7 @@ class ModesSpec(BodyFile):
         "the cage's material",
         minimum=0.0,
         maximum=1.0,
+        when={"ratios": ABSENT},
         assumption="0.01 for joints and oil, and half of the material's loss factor, which metals "
         "hardly have; no source gives a cage's own",
     )
@@ -68,6 +78,7 @@ class ModesSpec(BodyFile):
         False,
         doc="ritz, craig_bampton: add static vectors of radial pressure on the lands as dynamic "
         "coordinates; without them the lands move as the modes do",
+        when=_COMPUTED,
     )
     geometric_stiffening: bool = option(
         False,

@@ -15,13 +15,14 @@ from typing import Any, TypeVar
 import numpy as np
 import scipy.sparse as sp
 
+from flexcage.core.arrays import SPARSE, sparse_matrix
+from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
 from flexcage.modes.basis import BodyFit, ModeBasis, ResidualFlexibility
 from flexcage.modes.table import ModeTable
 
 Interface = TypeVar("Interface")
 _STEPS = 2**23 - 1  # to the largest displacement of a shape
-_SPARSE = ("data", "indices", "indptr", "shape")  # what a sparse matrix is stored as
 
 
 def basis_arrays(basis: ModeBasis) -> dict[str, np.ndarray]:
@@ -102,7 +103,7 @@ def interface_arrays(interface: Any) -> dict[str, np.ndarray]:
     for field in fields(interface):
         value = getattr(interface, field.name)
         if sp.issparse(value):
-            arrays |= {f"{field.name}.{part}": getattr(value, part) for part in _SPARSE}
+            arrays |= {f"{field.name}.{part}": getattr(value, part) for part in SPARSE}
         elif value is not None:
             arrays[field.name] = value
     return arrays
@@ -114,6 +115,13 @@ def interface_from(kind: type[Interface], a: Mapping[str, np.ndarray]) -> Interf
         n: x if np.ndim(x) else float(x) for n, x in a.items() if "." not in n
     }
     for name in {n.split(".")[0] for n in a if "." in n}:
-        data, indices, indptr, shape = (a[f"{name}.{part}"] for part in _SPARSE)
-        values[name] = sp.csr_matrix((data, indices, indptr), shape=tuple(shape))
+        parts = {part: a[f"{name}.{part}"] for part in SPARSE if f"{name}.{part}" in a}
+        try:
+            values[name] = sparse_matrix(parts, name)
+        except ValueError as error:
+            raise InputError(
+                f"What was kept of the cage's contacts is damaged ({error}); run the case again, "
+                "or remove what the cache holds: flexcage cache --clear.",
+                where="cage",
+            ) from error
     return kind(**values)

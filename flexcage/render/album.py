@@ -7,7 +7,7 @@ the cage, and fixes the range of stress and the factor of deformation, which els
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from flexcage.core.errors import FlexcageError, RunFailed, mistake_in
+from flexcage.core.binding import did_you_mean
+from flexcage.core.errors import FlexcageError, InputError, RunFailed, mistake_in
 from flexcage.core.garbage import few_collections
 from flexcage.core.progress import Silent
 from flexcage.core.registry import add, check_free
@@ -31,12 +32,20 @@ if TYPE_CHECKING:
 
     from flexcage.stress.places import PlaceKind
 
-Drawing = partial[Path]  # draws one picture, and gives its path
+#: Pictures of every run, and those of a flexible cage; ``spectra`` of a run long enough for them.
+_OF_MOTION = ("mesh", "bearing", "orbit", "histories", "spectra")
+_OF_STRESS = ("modes", "stress_peak", "stress_envelope", "deformation")
+_UNSTRESSED = ("mesh", "orbit", "spectra")  # that are the same with and without stress
+FORMATS = ("png", "svg", "pdf")  # of curves; scenes are .png
 
-_FILES = (
-    "mesh", "modes", "bearing", "orbit", "histories", "spectra", "stress_peak", "stress_envelope",
-    "deformation",
-)  # fmt: skip
+
+@dataclass(frozen=True)
+class Drawing:
+    """One picture: ``draw(path)`` writes the file of this name and ending."""
+
+    name: str
+    ending: str
+    draw: Callable[[Path], Any]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -98,9 +107,66 @@ def register_picture(
     ``stress``) and the path to write to, and returns the path it wrote. ``needs_stress`` leaves
     the picture out for a rigid cage. Raises InputError for a name that is taken.
     """
-    taken = dict.fromkeys(_FILES)
+    taken = dict.fromkeys((*_OF_MOTION, *_OF_STRESS))
     check_free(taken, name, what="picture")
     add(PICTURES, name, (draw, needs_stress), what="picture")
+
+
+def picture_names(*, flexible: bool, resolved: bool) -> list[str]:
+    """Names of the pictures of a run: its cage ``flexible``, its spectra ``resolved``."""
+    names = [name for name in _OF_MOTION if resolved or name != "spectra"]
+    names += _OF_STRESS if flexible else ()
+    return [
+        *names,
+        *(n for n, (_, needs_stress) in PICTURES.items() if flexible or not needs_stress),
+    ]
+
+
+#: Pictures, the animation included, that change with each value of a ``Look``.
+_LOOKS = {
+    "view": ("mesh", "stress_peak", "stress_envelope", "deformation", "stress"),
+    "stress_limit": ("stress_peak", "stress_envelope", "stress"),
+    "scale": ("stress_peak", "deformation", "stress"),
+}
+
+
+def changed_by(look: Iterable[str], names: Sequence[str]) -> list[str]:
+    """Those of ``names`` that change with these values of a ``Look``."""
+    changed = {name for value in look for name in _LOOKS[value]}
+    return [name for name in names if name in changed]
+
+
+def need_stress(only: Sequence[str]) -> bool:
+    """Whether pictures of these names, or all without any, show a flexible cage's stress."""
+    return not only or not set(only) <= set(_UNSTRESSED)
+
+
+def check_names(only: Sequence[str], known: Sequence[str]) -> None:
+    """InputError for a picture that a run has not."""
+    for name in only:
+        if name not in known:
+            raise InputError(
+                f"The run has no picture '{name}'; {_near(name, known)}its pictures are "
+                f"{', '.join(known)}.",
+                where="only",
+                value=name,
+            )
+
+
+def _near(name: str, known: Sequence[str]) -> str:
+    hint = did_you_mean(name, known, "")
+    return f"{hint}; " if hint.startswith("the nearest") else ""
+
+
+def check_format(name: str) -> None:
+    """InputError for a format that curves cannot have."""
+    if name not in FORMATS:
+        raise InputError(
+            f"The format of pictures is '{name}', but must be {', '.join(FORMATS[:-1])} or "
+            f"{FORMATS[-1]}.",
+            where="format",
+            value=name,
+        )
 
 
 def draw_album(
@@ -109,24 +175,30 @@ def draw_album(
     *,
     animate: bool = False,
     look: Look | None = None,
+    only: Sequence[str] = (),
+    format: str = "png",
     progress: Callable[..., Any] = Silent,
 ) -> list[Path]:
-    """Draw all pictures into ``folder``; their paths. ``progress`` is a context like
-    ``core.progress.Progress``."""
+    """Draw all pictures into ``folder``, or ``only`` those of these names; their paths.
+
+    Curves are drawn in ``format`` ("svg" and "pdf" are vector graphics), scenes as .png.
+    ``progress`` is a context like ``core.progress.Progress``.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     look = look or Look()
-    drawings = [*_geometry(scene, folder, look), *_motion(scene, folder)]
+    drawings = [*_geometry(scene, look), *_motion(scene, format)]
     if scene.stress is not None:
-        drawings += _stress(scene, scene.stress, folder, look)
+        drawings += _stress(scene, scene.stress, look)
     for name, (draw, needs_stress) in PICTURES.items():
         if scene.stress is not None or not needs_stress:
-            drawings.append(partial(_draw_own, name, draw, scene, folder / f"{name}.png"))
+            drawings.append(Drawing(name, "png", partial(_draw_own, name, draw, scene)))
     if animate:
-        drawings += _animations(scene, folder, look)
+        drawings += _animations(scene, look)
+    drawings = [drawing for drawing in drawings if not only or drawing.name in only]
     paths: list[Path] = []
     with progress(len(drawings), "pictures") as bar, few_collections():
         for drawing in drawings:
-            paths.append(drawing())
+            paths.append(drawing.draw(folder / f"{drawing.name}.{drawing.ending}"))
             bar.advance()
     return paths
 
@@ -134,6 +206,8 @@ def draw_album(
 def _draw_own(name: str, draw: Callable[[Scene, Path], Path], scene: Scene, path: Path) -> Path:
     """A picture registered from outside; a mistake in its function is told as the user's."""
     try:
+        if path.is_symlink():
+            path.unlink()  # not written through
         return Path(draw(scene, path))
     except FlexcageError:
         raise
@@ -144,143 +218,110 @@ def _draw_own(name: str, draw: Callable[[Scene, Path], Path], scene: Scene, path
         ) from exc
 
 
-def _geometry(scene: Scene, folder: Path, look: Look) -> list[Drawing]:
+def _geometry(scene: Scene, look: Look) -> Iterator[Drawing]:
     from flexcage.render.mesh_pictures import mesh_picture
     from flexcage.render.mode_pictures import mode_sheet
 
-    drawings = [
-        partial(
-            mesh_picture,
-            scene.mesh,
-            folder / "mesh.png",
-            defects=scene.defects,
-            azimuth=look.view,
-            note=scene.label,
-        )
-    ]
+    yield Drawing("mesh", "png", partial(
+        mesh_picture, scene.mesh, defects=scene.defects, azimuth=look.view, note=scene.label,
+    ))  # fmt: skip
     if scene.stress is not None:
-        b = scene.stress.basis
-        drawings.append(
-            partial(
-                mode_sheet,
-                scene.stress.nodes,
-                scene.stress.cells,
-                b.shapes,
-                b.frequencies,
-                b.kind,
-                folder / "modes.png",
-                note=scene.label,
-            )
-        )
-    return drawings
+        s, b = scene.stress, scene.stress.basis
+        yield Drawing("modes", "png", partial(
+            mode_sheet, s.nodes, s.cells, b.shapes, b.frequencies, b.kind, note=scene.label,
+        ))  # fmt: skip
 
 
-def _motion(scene: Scene, folder: Path) -> list[Drawing]:
+def _motion(scene: Scene, format: str) -> Iterator[Drawing]:
     from flexcage.render.bearing_pictures import bearing_picture
     from flexcage.render.curves import histories, orbit
     from flexcage.render.spectra import spectra_picture
 
     b, ds = scene.bearing, scene.dataset
     numbers = BearingNumbers.of(b)
-    root = None
-    if scene.stress is not None:
-        import xarray
+    index = _shown_sample(scene)
+    yield Drawing("bearing", "png", partial(
+        bearing_picture, ds, b, index, cage_points=scene.mesh.points, cage_tets=scene.mesh.tets,
+        load=tuple(scene.loads[index, 1:]), axial=float(scene.loads[index, 0]), note=scene.label,
+    ))  # fmt: skip
+    yield Drawing("orbit", format, partial(
+        orbit, ds, clearance=scene.clearance, guide=scene.guide, settle=scene.settle,
+        note=scene.label,
+    ))  # fmt: skip
+    yield Drawing("histories", format, partial(
+        histories, ds, bearing=numbers, root_stress=_root_stress(scene), loads=scene.loads,
+        element=scene.followed, settle=scene.settle, note=scene.label,
+    ))  # fmt: skip
+    if spectra.resolves(settled(ds, scene.settle), numbers):
+        yield Drawing("spectra", format, partial(
+            spectra_picture, ds, bearing=numbers, settle=scene.settle, note=scene.label,
+        ))  # fmt: skip
 
-        root = xarray.DataArray(
-            scene.stress.roots,
-            dims=("time", "place"),
-            coords={"time": ds["time"], "place": list(scene.stress.root_names)},
-            attrs={
-                "units": "Pa",
-                "long_name": f"equivalent stress at {scene.stress.root_kind.many}",
-            },
-        )
+
+def _shown_sample(scene: Scene) -> int:
+    """The sample at which the bearing is shown: of the largest stress, or of the largest forces on
+    pockets."""
+    ds = scene.dataset
+    if scene.stress is not None:
+        return int(np.abs(ds["time"].values - scene.stress.time).argmin())
     first = ds.sizes["time"] - settled(ds, scene.settle).sizes["time"]
     pushed = ds["pocket_force"].sum(["pocket", "face"]).values
-    busiest = first + int(np.argmax(pushed[first:]))
-    index = busiest if scene.stress is None else int(
-        np.abs(ds["time"].values - scene.stress.time).argmin()
-    )  # fmt: skip
-    drawings = [
-        partial(
-            bearing_picture, ds, b, index, folder / "bearing.png", cage_points=scene.mesh.points,
-            cage_tets=scene.mesh.tets, load=tuple(scene.loads[index, 1:]),
-            axial=float(scene.loads[index, 0]), note=scene.label,
-        ),
-        partial(
-            orbit, ds, folder / "orbit.png", clearance=scene.clearance, guide=scene.guide,
-            settle=scene.settle, note=scene.label,
-        ),
-        partial(
-            histories, ds, folder / "histories.png", bearing=numbers, root_stress=root,
-            loads=scene.loads, element=scene.followed, settle=scene.settle, note=scene.label,
-        ),
-    ]  # fmt: skip
-    if spectra.resolves(settled(ds, scene.settle), numbers):
-        drawings.append(
-            partial(
-                spectra_picture, ds, folder / "spectra.png", bearing=numbers, settle=scene.settle,
-                note=scene.label,
-            )
-        )  # fmt: skip
-    return drawings
+    return first + int(np.argmax(pushed[first:]))
 
 
-def _stress(scene: Scene, s: StressPictures, folder: Path, look: Look) -> list[Drawing]:
+def _root_stress(scene: Scene) -> xarray.DataArray | None:
+    """Stress (time, place) [Pa] at the roots of a flexible cage."""
+    if scene.stress is None:
+        return None
+    import xarray
+
+    return xarray.DataArray(
+        scene.stress.roots,
+        dims=("time", "place"),
+        coords={"time": scene.dataset["time"], "place": list(scene.stress.root_names)},
+        attrs={"units": "Pa", "long_name": f"equivalent stress at {scene.stress.root_kind.many}"},
+    )
+
+
+def _stress(scene: Scene, s: StressPictures, look: Look) -> Iterator[Drawing]:
     from flexcage.render.stress_pictures import (
         deformation_picture,
         envelope_picture,
         stress_picture,
     )
 
-    ds, count = scene.dataset, scene.mesh.pocket_count
-    t = ds["time"].values
-    return [
-        partial(
-            stress_picture, s.nodes, s.cells, s.displacement, s.von_mises,
-            folder / "stress_peak.png", time=s.time, peak_label=s.peak_place,
-            peak_node=s.peak_vertex, scale=look.scale, limit=look.stress_limit,
-            pocket_count=count, azimuth=look.azimuth, note=scene.label,
-        ),
-        partial(
-            envelope_picture, s.nodes, s.cells, s.envelope, folder / "stress_envelope.png",
-            span=(t[s.settled], t[-1]), peak_label=s.peak_place, peak_node=s.peak_vertex,
-            limit=look.stress_limit, pocket_count=count, azimuth=look.azimuth, note=scene.label,
-        ),
-        partial(
-            deformation_picture, s.nodes, s.cells, s.displacement, folder / "deformation.png",
-            time=s.time, scale=look.scale, pocket_count=count, azimuth=look.azimuth,
-            note=scene.label,
-        ),
-    ]  # fmt: skip
+    t = scene.dataset["time"].values
+    seen: dict[str, Any] = {
+        "pocket_count": scene.mesh.pocket_count, "azimuth": look.azimuth, "note": scene.label,
+    }  # fmt: skip
+    peak: dict[str, Any] = {
+        "peak_label": s.peak_place, "peak_node": s.peak_vertex, "limit": look.stress_limit
+    }  # fmt: skip
+    yield Drawing("stress_peak", "png", partial(
+        stress_picture, s.nodes, s.cells, s.displacement, s.von_mises, time=s.time,
+        scale=look.scale, **peak, **seen,
+    ))  # fmt: skip
+    yield Drawing("stress_envelope", "png", partial(
+        envelope_picture, s.nodes, s.cells, s.envelope, span=(t[s.settled], t[-1]), **peak, **seen,
+    ))  # fmt: skip
+    yield Drawing("deformation", "png", partial(
+        deformation_picture, s.nodes, s.cells, s.displacement, time=s.time, scale=look.scale,
+        **seen,
+    ))  # fmt: skip
 
 
-def _animations(scene: Scene, folder: Path, look: Look) -> list[Drawing]:
+def _animations(scene: Scene, look: Look) -> Iterator[Drawing]:
     from flexcage.render.animations import animate_bearing, animate_stress
 
-    drawings = [
-        partial(
-            animate_bearing, scene.dataset, scene.bearing, folder / "bearing.gif", frames=40,
-            cage_points=scene.mesh.points, cage_tets=scene.mesh.tets, loads=scene.loads,
-            note=scene.label,
-        )
-    ]  # fmt: skip
-    if scene.stress is not None and scene.stress.frames:
-        times, shifts, stresses = zip(*scene.stress.frames, strict=True)
-        drawings.append(
-            partial(
-                animate_stress,
-                scene.stress.nodes,
-                scene.stress.cells,
-                shifts,
-                stresses,
-                times,
-                folder / "stress.gif",
-                pocket_count=scene.mesh.pocket_count,
-                azimuth=look.azimuth,
-                limit=look.stress_limit,
-                scale=look.scale,
-                note=scene.label,
-            )
-        )
-    return drawings
+    s = scene.stress
+    yield Drawing("bearing", "gif", partial(
+        animate_bearing, scene.dataset, scene.bearing, frames=40, cage_points=scene.mesh.points,
+        cage_tets=scene.mesh.tets, loads=scene.loads, note=scene.label,
+    ))  # fmt: skip
+    if s is not None and s.frames:
+        times, shifts, stresses = zip(*s.frames, strict=True)
+        yield Drawing("stress", "gif", partial(
+            animate_stress, s.nodes, s.cells, shifts, stresses, times,
+            pocket_count=scene.mesh.pocket_count, azimuth=look.azimuth, limit=look.stress_limit,
+            scale=look.scale, note=scene.label,
+        ))  # fmt: skip

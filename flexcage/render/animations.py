@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.core.writing import written
 from flexcage.geometry.bearing import Bearing
 from flexcage.render import marks, sheet
 from flexcage.render.bearing_pictures import (
@@ -54,11 +55,12 @@ def write_animation(frames: Iterable[np.ndarray], path: str | Path, *, fps: floa
     options: dict[str, Any] = {"duration": 1e3 / fps, "loop": 0}
     if kind == ".mp4":
         options = {"fps": fps, "macro_block_size": 2, "quality": 8}
-    writer: Any = imageio.get_writer(str(path), **options)
-    with writer:
-        for frame in frames:
-            even = frame[: frame.shape[0] // 2 * 2, : frame.shape[1] // 2 * 2]
-            writer.append_data(np.ascontiguousarray(even))
+    with written(path) as temporary:
+        writer: Any = imageio.get_writer(str(temporary), **options)
+        with writer:
+            for frame in frames:
+                even = frame[: frame.shape[0] // 2 * 2, : frame.shape[1] // 2 * 2]
+                writer.append_data(np.ascontiguousarray(even))
     return path
 
 

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 RPM, DEGREE = 30.0 / pi, 180.0 / pi
 EDGE, TOP = 110, 110
 _WIDTH, _HEIGHT, _BETWEEN = 1480, 250, 66
+_BEYOND = 0.01  # of a clearance: an orbit that leaves it by less needs no word
 _MARGIN = EDGE + 30  # of histories: speeds of five digits, small sliding speeds with many
 
 
@@ -40,7 +41,8 @@ def orbit(
 
     ``clearance`` [m] draws the circle in which a land of an undeformed cage lets the centre move,
     about the mean place of the ring that guides it, ``guide`` "inner" or "outer"; if the orbit is
-    small in it, a second panel shows the orbit alone. ``settle`` leaves the start out.
+    small in it, a second panel shows the orbit alone, and if it leaves the circle, a sentence says
+    why. ``settle`` leaves the start out.
     """
     part = metrics.settled(ds, settle) if settle else ds
     yz = metrics.orbit(part) * 1e6
@@ -50,9 +52,12 @@ def orbit(
     radius = land[2] if land else 0.0
     zoomed = land is not None and reach < 0.5 * radius
     side, panels, top = 760, 2 if zoomed else 1, TOP + 30
+    left_it = beyond_clearance(part, yz, land)
     with sheet.style():
         width = EDGE + panels * (side + 120) + 130
-        figure = sheet.new_figure(width, top + side + 96)
+        figure = sheet.new_figure(width, top + side + (96 if not left_it else 140))
+        artist = sheet.text_at(figure, 36, top + side + 88, left_it, color=sheet.FAINT)
+        sheet.fit_width(figure, artist, width - 72)
         whirl = metrics.whirl(metrics.whole_revolutions(part))
         facts = [
             note,
@@ -90,6 +95,27 @@ def land_circle(
     return y, z, clearance * 1e6
 
 
+def beyond_clearance(
+    ds: xarray.Dataset, yz: np.ndarray, land: tuple[float, float, float] | None
+) -> str:
+    """A sentence that says how far an orbit ``yz`` (time, 2) [µm] leaves the ``land_circle``, and
+    why; "" if it does not."""
+    if land is None:
+        return ""
+    y, z, radius = land
+    beyond = float(np.hypot(yz[:, 0] - y, yz[:, 1] - z).max()) - radius
+    if beyond < _BEYOND * radius:
+        return ""
+    if "modal_coordinates" in ds:
+        why = "this cage is flexible, and bends where its land is pressed"
+    else:
+        why = "the guiding ring moves about its mean place, and the land's contacts yield"
+    return (
+        f"The orbit reaches {beyond:.2g} µm beyond the circle, which is the clearance of an "
+        f"undeformed cage: {why}."
+    )
+
+
 def _orbit_panel(
     ax: Any, yz: np.ndarray, t: np.ndarray, limit: float, land: tuple[float, ...] | None
 ) -> None:
@@ -112,7 +138,7 @@ def _orbit_panel(
             color=sheet.VERMILION,
             lw=1.3,
             ls="--",
-            label=f"land clearance, rigid cage: {radius:g} µm",
+            label=f"land clearance, undeformed cage: {radius:g} µm",
         )
     ax.plot(*xy[0], "o", ms=6, mfc="white", mec=sheet.INK, mew=1.2, label="start", ls="none")
     ax.plot(*xy[-1], "s", ms=6, mfc=sheet.INK, mec=sheet.INK, label="end", ls="none")
@@ -379,6 +405,7 @@ def compare_forces(
             _exceedance(share, ds, colours[name])
         _pocket_bars(bars, parts, colours)
         top.set(xlabel="time [ms]", ylabel="force [N]", ylim=(0.0, None))
+        share.set(xlim=(0.0, None))  # once all runs are drawn: to the largest force of any
         spans = [ds["time"].values[[0, -1]] * 1e3 for ds in parts.values()]
         top.set_xlim(min(s[0] for s in spans), max(s[1] for s in spans))
         _legend(top, "Largest pocket force", len(parts))
@@ -402,7 +429,7 @@ def _exceedance(ax: Any, ds: xarray.Dataset, colour: str) -> None:
     touching = values > 1e-3
     if touching.any():
         ax.semilogy(values[touching], share[touching] * 100.0, color=colour)
-    ax.set(xlabel="force [N]", ylabel="share of time above [%]", xlim=(0.0, None))
+    ax.set(xlabel="force at the samples [N]", ylabel="share of time above [%]")
     ax.set_title("How often a face bears more than a force", loc="left", weight="bold")
 
 

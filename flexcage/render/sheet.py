@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.core.errors import InputError, unwritable
+from flexcage.core.writing import written
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -54,6 +55,8 @@ STYLE: dict[Any, Any] = {
     "xtick.color": INK,
     "ytick.color": INK,
     "axes.formatter.useoffset": False,
+    "pdf.fonttype": 42,  # TrueType, which journals take
+    "svg.hashsalt": "flexcage",  # the same picture is the same file
 }
 
 Rect = tuple[float, float, float, float]  # left, top, width, height in pixels, from the top left
@@ -223,7 +226,8 @@ def save(figure: Figure, path: str | Path) -> Path:
     path = Path(path)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        _write(figure, path)
+        with written(path) as temporary:
+            _write(figure, temporary)
     except OSError as error:
         raise unwritable(f"The picture '{path}'", error, path=path) from error
     except ValueError as error:
@@ -236,7 +240,8 @@ def save(figure: Figure, path: str | Path) -> Path:
 def _write(figure: Figure, path: Path) -> None:
     """A .png without transparency, packed fast; what else matplotlib can write by its suffix."""
     if path.suffix.lower() != ".png":
-        figure.savefig(path, dpi=DPI)
+        undated = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(path.suffix.lower())
+        figure.savefig(path, dpi=DPI, metadata=undated)
         return
     from PIL import Image
 

@@ -95,11 +95,13 @@ class Table:
 
 @dataclass(frozen=True)
 class Image:
-    """A picture, its caption, and its description for those who do not see it."""
+    """A picture, its caption, and its description for those who do not see it; a ``wide`` one has
+    the whole width of the page."""
 
     path: Path
     caption: str
     alt: str = ""
+    wide: bool = False
 
 
 @dataclass(frozen=True)
@@ -141,7 +143,16 @@ class Text:
     open: bool = False
 
 
-Block = Prose | Notices | Tiles | Table | Gallery | Chart | Charts | Text
+@dataclass(frozen=True)
+class Beside:
+    """Paragraphs with a picture at their side, below them where there is no room."""
+
+    kind: ClassVar[str] = "beside"
+    prose: Prose
+    image: Image
+
+
+Block = Beside | Prose | Notices | Tiles | Table | Gallery | Chart | Charts | Text
 
 
 @dataclass(frozen=True)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 
 from flexcage.core.errors import InputError
+from flexcage.core.reading import read_json
+from flexcage.core.writing import check_own
 from flexcage.report.blocks import Block, Gallery, Image, Section
 from flexcage.report.tables import frame_table
 
@@ -19,6 +20,7 @@ def extra_figures(folder: str | Path) -> Section | None:
     ``figures/captions.json`` maps file names to captions; a file without one is named by itself.
     """
     place = Path(folder) / FOLDER
+    check_own(place)
     captions = _captions(place / CAPTIONS)
     images = [
         Image(path, captions.get(path.name, _title(path))) for path in sorted(place.glob("*.png"))
@@ -45,7 +47,7 @@ def _captions(path: Path) -> dict[str, str]:
     if not path.is_file():
         return {}
     try:
-        stored = json.loads(path.read_text("utf-8"))
+        stored = read_json(path)
     except (OSError, ValueError) as exc:
         raise InputError(f"'{path}' cannot be read as JSON ({exc}).") from exc
     if not isinstance(stored, Mapping):

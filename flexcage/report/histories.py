@@ -7,7 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from flexcage.render.curves import drive_varies, land_circle, radial_and_axial
+from flexcage.render.curves import (
+    beyond_clearance,
+    drive_varies,
+    land_circle,
+    radial_and_axial,
+)
 from flexcage.render.elements import shown_faces
 from flexcage.render.sheet import BLUE, GREEN, INK, ORANGE, VERMILION
 from flexcage.report.blocks import Chart
@@ -183,7 +188,8 @@ def _orbit(scene: Scene) -> Chart:
             marker={"symbol": symbol, "size": 13 if name == "mean" else 8, "color": INK,
                     "line": {"width": 2, "color": INK}},
         )  # fmt: skip
-    return Chart("Orbit of the cage's centre, settled part", [("", figure)], height=420)
+    why = beyond_clearance(part, np.stack([y, z], axis=1), land)
+    return Chart("Orbit of the cage's centre, settled part", [("", figure)], why, height=420)
 
 
 def imbalance_chart(ds: xarray.Dataset) -> Chart:

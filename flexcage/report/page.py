@@ -16,10 +16,11 @@ from typing import Any
 
 from flexcage._version import __version__
 from flexcage.core.errors import InputError, unwritable
-from flexcage.core.writing import replace
+from flexcage.core.writing import check_own, replace
 from flexcage.report.blocks import Image, Page
 
 LIMIT = 15e6  # bytes of a page
+_MADE, _HEAD = b'<meta name="generator" content="flexcage ', 2000  # in so many bytes of a page
 _MOST_PICTURE = 150_000  # bytes of a picture above which it is packed tighter
 _QUALITY = 88  # of a picture packed tighter (WebP)
 _EFFORT = 2  # of 6 in packing: half the time of the usual 4, and 3 % more bytes
@@ -49,6 +50,15 @@ def write_page(page: Page, path: str | Path) -> Path:
     return path
 
 
+def is_page(path: Path) -> bool:
+    """Whether a file is a page that flexcage wrote, and may be written anew."""
+    try:
+        with open(path, "rb") as file:
+            return _MADE in file.read(_HEAD)
+    except OSError:
+        return False
+
+
 def html(page: Page) -> str:
     """The page as the text of one HTML file."""
     import jinja2
@@ -71,13 +81,17 @@ def html(page: Page) -> str:
 
 
 def embedded(image: Image) -> str:
-    """A picture as a data URI; a large one is packed as WebP."""
+    """A picture as a data URI; a large one is packed as WebP. InputError for what is no picture,
+    and for a link: a page is given away, and a link may lead to anything."""
+    import PIL.Image
+
+    check_own(image.path)
     try:
         data = image.path.read_bytes()
         kind = "png"
         if len(data) > _MOST_PICTURE:
             data, kind = _webp(data), "webp"
-    except OSError as exc:
+    except (OSError, ValueError, PIL.Image.DecompressionBombError) as exc:
         raise InputError(f"The picture '{image.path}' cannot be read as an image.") from exc
     return f"data:image/{kind};base64,{base64.b64encode(data).decode()}"
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from flexcage.render.album import Scene
 from flexcage.report.blocks import (
+    Beside,
     Block,
     Charts,
     Gallery,
@@ -47,6 +48,8 @@ _APART = _ENERGY, _SOLVER, _TIMES = tuple(
 )
 #: Pictures that the page shows as charts.
 _CHARTS = ("stress_peak", "histories", "orbit")
+_LEADING = ("stress_peak", "bearing", "mesh")  # pictures, one of which is on the first screen
+_WIDE = ("spectra",)  # pictures with fine print
 #: Pictures of a run by file name: their captions ({elements}: rollers or balls), in the order in
 #: which they stand.
 CAPTIONS = {
@@ -86,7 +89,7 @@ class RunAccount:
 def run_page(account: RunAccount) -> Page:
     """The page: what was computed and its figures first, how to repeat it last."""
     sections = [
-        Section("What was computed", [Prose(account.statement)]),
+        Section("What was computed", [_statement(account)]),
         Section("Warnings", [Notices(account.warnings, none="None.")]),
         _figures(account),
         *_stress(account),
@@ -109,6 +112,17 @@ _THINNED = Prose(
     ["Shaded: left out of statistics. Curves are thinned to what a screen can show; the least and "
      "the largest value of every stretch are kept, so no peak is lost."]
 )  # fmt: skip
+
+
+def _statement(account: RunAccount) -> Block:
+    """What was computed, beside the first picture that there is."""
+    prose = Prose(account.statement)
+    return Beside(prose, first[0]) if (first := _leading(account)) else prose
+
+
+def _leading(account: RunAccount) -> list[Image]:
+    """The picture of the first screen, if there is any."""
+    return _named(account, *_LEADING)[:1]
 
 
 def _figures(account: RunAccount) -> Section:
@@ -169,7 +183,7 @@ def _stress(account: RunAccount) -> list[Section]:
 
 def _named(account: RunAccount, *names: str) -> list[Image]:
     found = {path.stem: path for path in account.images}
-    return [Image(found[n], _caption(account, n)) for n in names if n in found]
+    return [Image(found[n], _caption(account, n), wide=n in _WIDE) for n in names if n in found]
 
 
 def _caption(account: RunAccount, name: str) -> str:
@@ -180,8 +194,9 @@ def _caption(account: RunAccount, name: str) -> str:
 def _pictures(account: RunAccount) -> Section:
     known = [name for name in CAPTIONS if name not in (*_CHARTS, "stress_envelope")]
     own = sorted({path.stem for path in account.images} - set(CAPTIONS))
-    images = _named(account, *known, *own)
-    if not images:
+    leading = _leading(account)
+    images = [image for image in _named(account, *known, *own) if image not in leading]
+    if not images and not leading:
         return Section("Pictures", [Notices([f"No pictures: {account.no_images or 'none found'}"])])
     return Section("Pictures", [Gallery(images), Prose(["A click shows a picture in full size."])])
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from flexcage.report.blocks import (
+    Beside,
     Block,
     Charts,
     Gallery,
@@ -58,7 +59,7 @@ def study_page(account: StudyAccount) -> Page:
     """The page: what was varied, verdicts and tables first; how to repeat it last."""
     verdicts = read_verdicts(account.folder)
     sections = [
-        Section("What was varied", [Prose(account.varied), *account.named]),
+        Section("What was varied", [_varied(account), *account.named]),
         *([Section("Verdicts", [verdicts])] if verdicts else []),
         Section("Warnings", [Notices(account.failures, none="None.")]),
         Section("Results", [account.statistics, account.cases]),
@@ -75,6 +76,12 @@ def study_page(account: StudyAccount) -> Page:
         ]),
     ]  # fmt: skip
     return Page(f"{account.name}: report of a study", account.status, sections)
+
+
+def _varied(account: StudyAccount) -> Block:
+    """What was varied, beside the first picture that there is."""
+    prose = Prose(account.varied)
+    return Beside(prose, account.images[0]) if account.images else prose
 
 
 def _comparison(account: StudyAccount) -> Section:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from math import isfinite
 from pathlib import Path
@@ -10,6 +9,7 @@ from typing import Any
 
 from flexcage.core.digits import texts_with_margin
 from flexcage.core.errors import InputError
+from flexcage.core.reading import read_json
 from flexcage.report.blocks import Cell, Table
 
 FILE, FORMAT = "verdicts.json", 1
@@ -28,7 +28,7 @@ def read_verdicts(folder: str | Path) -> Table | None:
     if not path.is_file():
         return None
     try:
-        stored = json.loads(path.read_text("utf-8"))
+        stored = read_json(path)
     except (OSError, ValueError) as exc:
         raise InputError(f"'{path}' cannot be read as JSON ({exc}).", where=FILE) from exc
     found = stored.get("format") if isinstance(stored, Mapping) else None

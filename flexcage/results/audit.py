@@ -1,7 +1,9 @@
 """The energy audit: what is stored must be what was put in.
 
-The imbalance is held against the drive's work, and against what pockets and modes dissipate: the
-drive's work is a thousand times what the cage handles and would hide what goes wrong there. What
+The imbalance is held against the drive's work, and against what the cage dissipates, at pockets and
+lands, in films and in its modes: the drive's work is a thousand times what the cage handles and
+would hide what goes wrong there. Lands count because what rollers give the cage goes to them: by
+its pockets alone a cage that a land guides would be judged by a part of what it exchanges. What
 the balance missed before the cage dissipated anything is not the cage's: in a short run whose cage
 is first touched near the end, that is more than the few touches dissipate. So the cage's share
 counts the imbalance that arises once the cage has dissipated ``BEGUN`` of what it does in the run.
@@ -30,7 +32,9 @@ if TYPE_CHECKING:
     import xarray
 
 
-CAGE_LOSSES = ("pocket_damping", "pocket_friction", "modal_damping")
+CAGE_LOSSES = (
+    "pocket_damping", "pocket_friction", "modal_damping", "land_damping", "land_friction", "film",
+)  # fmt: skip
 OF_DRIVE, OF_CAGE = 1e-3, 0.05  # largest imbalance over the drive's work and over the cage's losses
 OF_ELASTIC = 1e-3  # of the elastic energy held: what a share must rise above to be one
 BEGUN = 0.01  # of the cage's losses in the run: from there on the imbalance may be the cage's
@@ -46,7 +50,7 @@ class EnergyAudit:
     range and the sum over channels of their ranges). ``channels`` holds each channel's total; the
     drive is what turns the inner ring, and constraints that move bodies.
     ``elastic`` is the largest energy held other than kinetic. ``of_drive`` and ``of_cage`` are the
-    worst imbalance over the drive's work and over what pockets and modes dissipate; NaN where there
+    worst imbalance over the drive's work and over what the cage dissipates; NaN where there
     was none, or so little that the share exceeds its bound with an imbalance under ``OF_ELASTIC``
     of the elastic energy or, of a cage that has hardly been touched, within the drive's bound.
     ``of_cage`` counts the imbalance since the cage's losses have begun.

@@ -30,10 +30,13 @@ from typing import Any
 
 import numpy as np
 
+from flexcage.core.arrays import SPARSE, sparse_matrix
 from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
-from flexcage.core.writing import move_into_place
+from flexcage.core.reading import json_of, table_of
+from flexcage.core.writing import check_name, check_own, move_into_place
 from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.results.door import Arrays, read_zip
 from flexcage.results.repeating import pack, unpack
 
 FORMAT = 2
@@ -43,6 +46,7 @@ SHARED = "cages"  # folder of a study, with one file for each distinct cage
 LARGE = ("mesh", "basis")  # groups left out where a run keeps no cage
 SAME = 1e-6  # of the largest displacement of a mode: what another processor's rounding may change
 _TEXT = "texts"
+_CHECKSUM = "checksum"  # of all arrays; an earlier flexcage wrote none
 _TABLE = "info_"  # before the names of a mesh's arrays beside points and tetrahedra
 
 Groups = Mapping[str, Mapping[str, np.ndarray]]
@@ -102,10 +106,15 @@ def cage_file(record: CageRecord) -> CageFile:
     with TemporaryDirectory() as folder:
         path = Path(folder) / NAME
         with ZipStore(path, mode="w") as store:
-            about = {"flexcage_cage": FORMAT, "digest": record.digest}
+            kept = {
+                kind: {name: np.asarray(value) for name, value in arrays.items()}
+                for kind, arrays in _packed(record).items()
+            }
+            about = {
+                "flexcage_cage": FORMAT, "digest": record.digest, _CHECKSUM: content_hash(kept)
+            }  # fmt: skip
             root = zarr.create_group(store, zarr_format=3, attributes=about)
-            for kind, arrays in _packed(record).items():
-                values = {name: np.asarray(value) for name, value in arrays.items()}
+            for kind, values in kept.items():
                 texts = {n: v.tolist() for n, v in values.items() if v.dtype.kind in "US"}
                 group = root.create_group(kind, attributes={_TEXT: texts})
                 for name, value in values.items():
@@ -128,19 +137,22 @@ def write_cage(path: Path, file: CageFile) -> Path:
 
 
 def read_cage(path: Path) -> CageRecord:
-    """The record in a file; InputError if it is none, of another format, or damaged."""
-    import zarr
-    from zarr.storage import ZipStore
-
+    """The record in a file; InputError if it is none, of another format, damaged, or changed."""
+    check_own(path)
     if not zipfile.is_zipfile(path):
         raise _unreadable(path, "it was cut short or changed")
     try:
-        with ZipStore(path, mode="r") as store:
-            root = zarr.open_group(store, mode="r", zarr_format=3)
-            found = root.attrs.get("flexcage_cage")
-            if found in READ:
-                groups = {name: unpack(_arrays_of(group)) for name, group in root.groups()}
-                return CageRecord(groups, str(root.attrs["digest"]))
+        root, stored = read_zip(path)
+        found = root.get("flexcage_cage")
+        if found in READ:
+            kept = {kind: _with_texts(*group) for kind, group in stored.items()}
+            checksum = content_hash(kept)
+            if root.get(_CHECKSUM, checksum) != checksum:
+                raise ValueError("it was changed afterwards")
+            groups = {kind: unpack(arrays) for kind, arrays in kept.items()}
+            record = CageRecord(groups, str(root["digest"]))
+            _check_record(record)
+            return record
     except Exception as error:  # of the disk, the zip file, its checksums, or Zarr
         raise _unreadable(path, str(error) or type(error).__name__) from error
     raise InputError(
@@ -149,6 +161,20 @@ def read_cage(path: Path) -> CageRecord:
         where="cage",
         value=str(path),
     )
+
+
+def _check_record(record: CageRecord) -> None:
+    """ValueError for indices that point nowhere."""
+    for arrays in record.groups.values():
+        for name in [name.removesuffix(".indptr") for name in arrays if name.endswith(".indptr")]:
+            sparse_matrix({part: arrays[f"{name}.{part}"] for part in SPARSE}, name)
+    mesh = record.groups.get("mesh")
+    if mesh is None:
+        return
+    for name in ("tets", "triangles"):
+        corners = mesh[name]
+        if corners.size and not 0 <= corners.min() <= corners.max() < len(mesh["points"]):
+            raise ValueError(f"{name} of the mesh have corners that are not there")
 
 
 def _packed(record: CageRecord) -> Groups:
@@ -168,14 +194,15 @@ def _unreadable(path: Path, reason: str) -> InputError:
     )
 
 
-def _arrays_of(group: Any) -> dict[str, np.ndarray]:
-    arrays = {name: np.asarray(array[...]) for name, array in group.arrays()}
-    return {**arrays, **{name: np.array(text) for name, text in group.attrs[_TEXT].items()}}
+def _with_texts(attributes: dict[str, Any], arrays: Mapping[str, np.ndarray]) -> Arrays:
+    texts = table_of(attributes.get(_TEXT))
+    return {**arrays, **{name: np.array(text, dtype=str) for name, text in texts.items()}}
 
 
 def find_cage(folder: Path, digest: str) -> Path:
     """The file of the cage of the run in ``folder``: its own, or its study's; InputError if there
     is none."""
+    check_name(digest, f"The cage of the run in '{folder}'")
     own, shared = folder / NAME, shared_cage(folder.resolve().parent.parent, digest)
     for path in (own, shared):
         if path.is_file():
@@ -248,9 +275,7 @@ def _plain(value: Any) -> Any:
 
 
 def _mesh_from(a: Mapping[str, np.ndarray]) -> CageMesh:
-    info = {
-        k: tuple(v) if isinstance(v, list) else v for k, v in json.loads(str(a["info"])).items()
-    }
+    info = {k: tuple(v) if isinstance(v, list) else v for k, v in json_of(str(a["info"])).items()}
     tables = [name for name in a if name.startswith(_TABLE)]
     info |= {name.removeprefix(_TABLE): a[name].astype(np.int64) for name in tables}
     triangles = np.split(a["triangles"].astype(np.int64), np.cumsum(a["group_sizes"])[:-1])

@@ -14,7 +14,7 @@ from flexcage.results import audit, metrics
 from flexcage.results.angles import at_angles, of_curvature
 from flexcage.results.bootstrap import FEWEST
 from flexcage.results.contact_activity import EVENTS, contact_series
-from flexcage.results.known import KNOWN, SETTLING, KnownFigure, marked
+from flexcage.results.known import KNOWN, NO_DRIFT, SETTLING, KnownFigure, marked
 from flexcage.results.metrics import BearingNumbers, SlipRange
 from flexcage.results.ring_figures import constraint_sections, ring_section
 from flexcage.results.statistics import Record, Windows, element_passes
@@ -105,7 +105,7 @@ def _statistics_rows(
             f"± is a 95 % interval{few}",
             Element=metrics.element(ds).capitalize(),
         ),
-        figure("drift", (drifting or "nothing") if known else None, remedy),
+        figure("drift", (drifting or NO_DRIFT[0]) if known else None, remedy),
     )
 
 
@@ -262,7 +262,7 @@ def _energy_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
         figure(
             "energy_of_cage",
             check.of_cage,
-            f"what pockets and modes dissipate{lacking}",
+            f"what pockets, lands and modes dissipate{lacking}",
         ),
         *(
             figure(f"work_{k}", v, idle=not ds["work"].sel(channel=k).values.any())

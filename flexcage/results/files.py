@@ -8,16 +8,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
-from zlib import error as BadStream
 
 import numpy as np
 
+from flexcage.core.arrays import read_arrays
 from flexcage.core.errors import InputError, RunFailed, is_full, unwritable
 from flexcage.core.writing import replace
-
-#: What ``load`` raises for a file that was cut short or changed.
-UNREADABLE = (BadZipFile, BadStream, EOFError, KeyError, ValueError)
 
 
 def make_room(path: Path, overwrite: bool) -> None:
@@ -53,16 +49,20 @@ def disk(path: Path, kept: int) -> Iterator[None]:
 
 def save(path: Path, arrays: Mapping[str, Any]) -> None:
     """Arrays to a file in one move, on disk before this returns."""
+    replace(path, npz_of(arrays))
+
+
+def npz_of(arrays: Mapping[str, Any]) -> bytes:
+    """Arrays as an .npz file holds them."""
     buffer = io.BytesIO()
     named: dict[str, Any] = {k: np.asarray(v) for k, v in arrays.items()}
     np.savez(buffer, **named)
-    replace(path, buffer.getvalue())
+    return buffer.getvalue()
 
 
 def load(path: Path) -> dict[str, np.ndarray]:
-    """The arrays of a file that ``save`` wrote; one of ``UNREADABLE`` for a damaged one."""
-    with np.load(path, allow_pickle=False) as stored:
-        return {k: stored[k] for k in stored.files}
+    """The arrays of a file that ``save`` wrote; one of ``arrays.UNREADABLE`` for a damaged one."""
+    return read_arrays(path)
 
 
 def joined(parts: Iterable[Mapping[str, np.ndarray]]) -> dict[str, np.ndarray]:

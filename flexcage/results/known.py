@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from flexcage.core.binding import did_you_mean
+from flexcage.core.binding import near_names
 from flexcage.core.errors import InputError
 from flexcage.core.listing import Listing
 from flexcage.core.wings import FAMILIES, Parts
@@ -29,6 +29,9 @@ RARE = "rare"
 #: see whether it has settled, levels of a study of convergence are compared.
 BRIEF, LARGE, EFFORT = "brief", "large", "effort"
 SETTLING, CONVERGENCE = "settling", "convergence"
+
+#: What ``drift`` says where no figure does; the second in summaries of an earlier flexcage.
+NO_DRIFT = ("none", "nothing")
 
 #: Words of titles that depend on the bearing or its cage, and what stands for them in a list.
 WORDS = {"Element": "Element", "Faces": "Pocket faces", "place": "a corner or edge",
@@ -78,8 +81,8 @@ def _statistics() -> Iterator[KnownFigure]:
         ("settled_time", "Time in statistics", "ms", "length of the settled part"),
         ("roller_passes", "{Element} passes counted", "",
          "windows of one element pass in the settled part", BRIEF),
-        ("drift", "Differs between its halves", "",
-         "figures that differ beyond the intervals: the run has not settled", TEXT),
+        ("drift", "Still drifting", "",
+         "figures that differ beyond the intervals between the halves of the settled part", TEXT),
     )
 
 
@@ -247,7 +250,7 @@ def _cage() -> Iterator[KnownFigure]:
     )
     yield from figures_in(
         "Equivalent stress",
-        ("stress_peak", "Stress, largest off {walls}", "MPa",
+        ("stress_peak", "Peak stress, {walls} excluded", "MPa",
          "of the settled part, without the walls of pockets that contacts press on", BRIEF,
          LARGE),
         ("stress_mean_peak", "Stress, mean of the cage's peak", "MPa",
@@ -362,6 +365,12 @@ settled part.
 """
 
 
+def near_figure(text: str) -> str:
+    """The figure whose name is nearest to a text, as a part of a sentence; empty if none is."""
+    close = near_names(text, KNOWN, 1)
+    return f"; the nearest name is '{close[0]}'" if close else ""
+
+
 def listing(text: str = "") -> Listing:
     """Figures whose name, title or meaning holds the text. InputError if there are none."""
     wanted = text.lower()
@@ -369,8 +378,11 @@ def listing(text: str = "") -> Listing:
         f for f in KNOWN.values() if wanted in f"{f.key} {f.title} {f.meaning} {f.section}".lower()
     ]
     if not found:
-        hint = did_you_mean(text, KNOWN, "'flexcage figures' lists all")
-        raise InputError(f"No figure has the text '{text}'; {hint}.", where="figures", value=text)
+        raise InputError(
+            f"No figure has the text '{text}'{near_figure(text)}; 'flexcage figures' lists all.",
+            where="figures",
+            value=text,
+        )
     rows = []
     for f in found:
         needs = f"needs {f.needs}" if f.needs else ""

@@ -11,6 +11,7 @@ import xarray
 from xarray.backends import BackendArray
 from xarray.core import indexing
 
+from flexcage.core.errors import RunFailed
 from flexcage.results.layout import Layout
 from flexcage.results.registry import Variable
 from flexcage.results.shards import decoded
@@ -35,7 +36,7 @@ class Blocks:
             for into, chunk in zip(found, self.read(blocks)):
                 if chunk is not None:
                     into[...] = decoded(chunk, shape, stored, order)
-        except (OSError, MemoryError):
+        except (OSError, MemoryError, RunFailed):
             raise
         except Exception as error:  # of whichever library unpacks it
             raise self.refuse() from error

@@ -19,7 +19,6 @@ Runs in memory are not rounded, and nothing that a run is resumed from is.
 
 from __future__ import annotations
 
-import difflib
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -27,6 +26,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from flexcage.core.binding import near_names
 from flexcage.core.errors import InputError
 from flexcage.core.listing import Listing
 from flexcage.core.registry import check_free
@@ -228,7 +228,7 @@ def _common() -> Iterator[Variable]:
     )  # fmt: skip
     yield sampled(
         "support_force", "N",
-        "force of a support on the outer ring, inwards, one for every part of a wide support",
+        "force of a support on the outer ring, inwards, one for every strip of an arc",
         "support",
     )  # fmt: skip
     yield sampled("pocket_force", "N", "normal force on a pocket face", "pocket", "face", **face)
@@ -305,7 +305,7 @@ def variable(name: str) -> Variable:
     """The registered variable, or one sentence with its new or the nearest name."""
     if name in VARIABLES:
         return VARIABLES[name]
-    near = difflib.get_close_matches(name, VARIABLES, n=1)
+    near = near_names(name, VARIABLES, 1)
     hint = f"; the nearest known name is {near[0]!r}" if near else ""
     if name in NAMES:
         hint = f"; it is called {NAMES[name]!r} now"

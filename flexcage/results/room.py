@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from flexcage.core.errors import EnvironmentLacks
+from flexcage.core.memory import in_bytes
 from flexcage.results.layout import Layout
 
 log = logging.getLogger(__name__)
@@ -39,8 +40,8 @@ def announce(folder: Path, rate: float, duration: float) -> None:
     place = next(path for path in (folder, *folder.resolve().parents) if path.exists())
     free = float(shutil.disk_usage(place).free)
     text = (
-        f"the results need about {in_words(size)} ({in_words(rate)} for a second of bearing time), "
-        f"and '{folder}' has {in_words(free)} left"
+        f"the results need about {in_bytes(size)} ({in_bytes(rate)} for a second of bearing time), "
+        f"and '{folder}' has {in_bytes(free)} left"
     )
     remedy = "shorten solver.duration, lower output.rate, or name a folder on another disk"
     if _SURELY * size > free:
@@ -49,11 +50,3 @@ def announce(folder: Path, rate: float, duration: float) -> None:
         log.warning("%s, which may be too little: %s", text, remedy)
     elif size > _WORTH_SAYING:
         log.info("%s", text)
-
-
-def in_words(size: float) -> str:
-    """A number of bytes as text."""
-    for unit, one in (("TB", 1e12), ("GB", 1e9)):
-        if size >= one:
-            return f"{size / one:.3g} {unit}"
-    return f"{size / 1e6:.0f} MB"

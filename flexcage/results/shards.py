@@ -14,7 +14,7 @@ import os
 from collections.abc import Mapping, Sequence
 from io import FileIO
 from itertools import groupby
-from math import ceil
+from math import ceil, prod
 from pathlib import Path
 from typing import Any
 
@@ -22,9 +22,13 @@ import google_crc32c
 import numpy as np
 from numcodecs import blosc
 
+from flexcage.core.arrays import read_arrays
+from flexcage.core.reading import check_size, check_type, json_of, table_of
+
 SLOTS = 200  # chunks of a file at most: their index stays within a page, which no kill cuts
 BLOSC: dict[str, Any] = {"cname": "zstd", "clevel": 2, "shuffle": "shuffle", "blocksize": 1 << 20}
 
+_BLOSC_HEADER = 16  # bytes
 _NONE = 2**64 - 1  # offset and length of a chunk that is not there
 _COLUMNS = "columns"  # of a packed table: type and shape of every column
 
@@ -79,6 +83,11 @@ class Chunks:
                 return False
         return True
 
+    def size(self, count: int) -> int:
+        """Bytes on disk of the files that hold the first ``count`` chunks."""
+        files = (self._path(file) for file in range(ceil(count / self._slots)))
+        return sum(path.stat().st_size for path in files if path.exists())
+
     def _path(self, file: int) -> Path:
         return self._folder.joinpath(str(file), *self._rest)
 
@@ -107,7 +116,7 @@ def encoded(values: np.ndarray, order: Sequence[int]) -> bytes:
 
 def decoded(chunk: bytes, shape: Sequence[int], dtype: np.dtype, order: Sequence[int]) -> Any:
     """The values (``shape``) of a chunk; ValueError for a damaged one."""
-    flat = np.frombuffer(blosc.decompress(checked(chunk)), dtype)
+    flat = np.frombuffer(_decompressed(checked(chunk), prod(shape) * dtype.itemsize), dtype)
     return flat.reshape([shape[k] for k in order]).transpose(np.argsort(order))
 
 
@@ -127,15 +136,19 @@ def packed(table: Mapping[str, np.ndarray]) -> bytes:
 
 
 def unpacked(chunk: bytes) -> dict[str, np.ndarray]:
-    """The table of a chunk; one of ``files.UNREADABLE`` for a damaged one."""
-    with np.load(io.BytesIO(chunk), allow_pickle=False) as parts:
-        about = json.loads(str(parts[_COLUMNS]))
-        table = {}
-        for name, (kind, shape) in about.items():
-            content = blosc.decompress(parts[name].tobytes()) if name in parts else b""
-            order: Any = "F" if len(shape) == 2 else "C"
-            table[name] = np.frombuffer(content, np.dtype(kind)).reshape(shape, order=order)
-        return table
+    """The table of a chunk; one of ``arrays.UNREADABLE`` for a damaged one."""
+    parts = read_arrays(io.BytesIO(chunk))
+    about = table_of(json_of(str(parts[_COLUMNS])))
+    columns = {name: (np.dtype(str(kind)), tuple(shape)) for name, (kind, shape) in about.items()}
+    sizes = {name: prod(shape) * dtype.itemsize for name, (dtype, shape) in columns.items()}
+    check_size(sum(sizes.values()), len(chunk))
+    table = {}
+    for name, (dtype, shape) in columns.items():
+        check_type(dtype, name)
+        content = _decompressed(parts[name].tobytes(), sizes[name]) if name in parts else b""
+        order: Any = "F" if len(shape) == 2 else "C"
+        table[name] = np.frombuffer(content, dtype).reshape(shape, order=order)
+    return table
 
 
 def with_checksum(content: bytes) -> bytes:
@@ -159,11 +172,27 @@ def _compressed(values: np.ndarray) -> bytes:
     )  # fmt: skip
 
 
+def _decompressed(packed: bytes, size: int) -> bytes:
+    """What was compressed, after its claim was compared with the size that is wanted."""
+    if blosc_size(packed) != size:
+        raise ValueError(f"a chunk claims to hold {blosc_size(packed):,} bytes, not {size:,}")
+    return blosc.decompress(packed)
+
+
+def blosc_size(packed: bytes) -> int:
+    """Bytes that a Blosc buffer claims to hold; ValueError for one that is cut short."""
+    if len(packed) < _BLOSC_HEADER or int.from_bytes(packed[12:16], "little") != len(packed):
+        raise ValueError("a chunk was cut short or changed")
+    return int.from_bytes(packed[4:8], "little")
+
+
 def _at(stream: FileIO, index: np.ndarray | None, slot: int) -> bytes | None:
     """The chunk of a slot."""
     if index is None or index[slot, 0] == _NONE:
         return None
     offset, length = (int(n) for n in index[slot])
+    if offset + length > os.fstat(stream.fileno()).st_size:
+        raise ValueError("a chunk was cut off")
     stream.seek(offset)
     return stream.read(length)
 

@@ -250,6 +250,42 @@ def amplitude_spectrum(
     return _over_frequency(signal, np.fft.rfftfreq(x.shape[-1], 1.0 / rate), amplitude, attrs)
 
 
+def envelope_spectrum(
+    signal: xarray.DataArray, band: tuple[float, float] = BAND
+) -> xarray.DataArray:
+    """Amplitude spectrum of the envelope of what a signal holds in a band [Hz], in its own unit:
+    shocks that come back at a frequency are lines there (``own_frequencies`` gives a bearing's).
+
+    ``signal`` as for ``amplitude_spectrum``; InputError for a band that its sampling cannot hold.
+    """
+    return amplitude_spectrum(envelope(signal, band))
+
+
+def vibration_figures(
+    signal: xarray.DataArray, lines: Mapping[str, float], band: tuple[float, float] = BAND
+) -> dict[str, float]:
+    """Figures of one vibration signal (time,), by name: ``rms`` about its mean; ``kurtosis`` (3 of
+    Gaussian noise, 1.5 of a sine); ``crest``, its largest over ``rms``; and of each of ``lines``
+    [Hz], as ``envelope at BPFO``, the largest amplitude of its envelope's spectrum within two bins.
+
+    A line that the record does not set apart from the mean is NaN.
+    """
+    x = signal.values - float(signal.mean())
+    rms = float(np.sqrt(np.mean(x**2)))
+    figures = {
+        "rms": rms,
+        "kurtosis": float(np.mean(x**4)) / rms**4 if rms else float("nan"),
+        "crest": float(np.abs(x).max()) / rms if rms else float("nan"),
+    }
+    spectrum = envelope_spectrum(signal, band)
+    frequency = spectrum["frequency"].values
+    for name, line in lines.items():
+        near = np.abs(frequency - line) <= 2.0 * frequency[1]
+        apart = APART * frequency[1] <= line <= frequency[-1]
+        figures[f"envelope at {name}"] = float(spectrum.values[near].max()) if apart else np.nan
+    return figures
+
+
 def _grid(signal: xarray.DataArray) -> str:
     found = next((d for d in GRIDS if d in signal.dims), None)
     if found is None:

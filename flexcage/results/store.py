@@ -3,9 +3,10 @@
 On disk a run is a Zarr (version 3) group whose arrays are allocated in full on the sampling grid,
 with one chunk a block along time, and up to ``shards.SLOTS`` of them in a file. Tables of blocks
 (steps, events, loads) stand in such files as well. A block exists only once ``_run/commit.json``
-counts it; that file is written aside, fsynced and atomically moved into place after the block's
-chunks, its tables and its checkpoint are written. Readers trim every array to the commit, so what
-a kill left half written is never seen. (Appending to arrays instead leaves unreadable stores.)
+counts it (``commit``); that file is written aside, fsynced and atomically moved into place after
+the block's chunks, its tables and its checkpoint are written. Readers trim every array to the
+commit, so what a kill left half written is never seen. (Appending to arrays instead leaves
+unreadable stores.)
 
 Format 6: the attribute ``run`` holds the case as it was run, its hash, and the digest of the cage
 that modal coordinates refer to (``cage_file``); ``layout`` holds all shapes and labels. Both are
@@ -16,39 +17,43 @@ it is read, not gone on with.
 
 from __future__ import annotations
 
-import json
 import shutil
-import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict
 from functools import partial
+from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from flexcage import _version
-from flexcage.core.errors import InputError
+from flexcage.core.arrays import UNREADABLE
+from flexcage.core.errors import InputError, RunFailed
+from flexcage.core.reading import check_size
 from flexcage.core.writing import replace
-from flexcage.results.files import UNREADABLE, disk, joined, load, make_room, save
-from flexcage.results.layout import (
-    Arrays,
-    Layout,
-    coords_from_json,
-    coords_to_json,
-    label_dataset,
-    make_layout,
+from flexcage.results.commit import (
+    CHECKSUMS,
+    COMMIT,
+    SIDE,
+    continued,
+    damaged,
+    first_commit,
+    read_commit,
+    vouched,
+    vouches,
+    write_commit,
 )
+from flexcage.results.door import NODE
+from flexcage.results.files import disk, joined, load, make_room, npz_of, save
+from flexcage.results.layout import Arrays, Layout, label_dataset, make_layout
+from flexcage.results.metadata import create_arrays, metadata_checksum, read_layout, slots
 from flexcage.results.registry import TIME, TIME_HF, Variable, rounded_loads
-from flexcage.results.renamed import OLD_FORMAT, renamed, stored_then
-from flexcage.results.shards import BLOSC, SLOTS, Chunks, encoded, packed, unpacked
+from flexcage.results.renamed import OLD_FORMAT, renamed
+from flexcage.results.shards import Chunks, encoded, packed, unpacked
 
 if TYPE_CHECKING:
     import xarray
 
-FORMAT = 6  # see above
-_READ = (OLD_FORMAT, 5, FORMAT)
-SIDE = "_run"  # folder beside the arrays: commit, checkpoint, steps, events
+CHECKPOINT = "checkpoint"  # what a commit calls it, whose name changes
 LAST = "last_state.npz"  # in SIDE, of a run whose solver stopped
 LOADS = "loads"  # table of what moves and pushes a flexible cage at steps between samples
 _EVERY = ("steps", "events")  # tables that every run has
@@ -169,6 +174,25 @@ class MemoryRunStore:
         """The state of ``keep_last``; None for a run that did not stop so."""
         return self._last
 
+    def vouch_for(self, name: str, content: bytes) -> None:
+        """Note what a file of the run's folder is about to hold, so that a change is told."""
+
+    def vouches_for(self, name: str, content: bytes) -> bool:
+        """Whether a file of the run's folder holds what was noted."""
+        return True
+
+    @property
+    def seams(self) -> list[dict[str, Any]]:
+        """Where other sources went on with the run: ``sample``, ``version`` and ``physics``."""
+        return list(self._commit.get("continued", ()))
+
+    def go_on_by(self, version: str, physics: str) -> None:
+        """Note that other sources compute what comes; it is kept with the next block."""
+        self._commit = continued(self._commit, version, physics)
+
+    def check_there(self) -> None:
+        """RunFailed if the run's folder was moved or removed meanwhile."""
+
     def steps(self) -> dict[str, np.ndarray]:
         """Solver steps of all committed blocks, one array a column."""
         return self._table("steps")
@@ -201,6 +225,7 @@ class RunStore(MemoryRunStore):
         self.path = path
         super().__init__(layout)
         self._commit = commit
+        self._place = _place_of(path)
 
     def _allocate(self) -> None:
         """Nothing in memory: the arrays are on disk."""
@@ -239,17 +264,17 @@ class RunStore(MemoryRunStore):
         path = Path(path)
         make_room(path, overwrite)
         with disk(path, 0):
-            _create_arrays(path, layout)
-            commit = {"format": FORMAT, "blocks": 0, "n_time": 0, "n_time_hf": 0, "checkpoint": ""}
+            create_arrays(path, layout)
+            commit = first_commit(metadata_checksum(path, layout))
             for kind in _EVERY:
                 (path / SIDE / kind).mkdir(parents=True)
-            replace(path / SIDE / "commit.json", json.dumps(commit).encode())
+            write_commit(path, commit)
         return cls(path, layout, commit)
 
     @staticmethod
     def begun(path: Path) -> bool:
         """Whether a run has its place on disk, so that it can be opened and gone on with."""
-        return (path / SIDE / "commit.json").exists()
+        return (path / SIDE / COMMIT).exists()
 
     @staticmethod
     def clear_unbegun(path: Path) -> None:
@@ -257,24 +282,19 @@ class RunStore(MemoryRunStore):
         blocks, which then only lack the file that counts them."""
         side = path / SIDE
         if any(side.glob("checkpoint*")) or any(side.glob("*/*")):
-            raise _damaged(path, f"holds blocks, but lacks {SIDE}/commit.json")
+            raise damaged(path, f"holds blocks, but lacks {SIDE}/{COMMIT}")
         shutil.rmtree(path, ignore_errors=True)
 
     @classmethod
     def open(cls, path: str | Path) -> RunStore:
         """Open a run, finished or not, for reading or for writing its next block."""
-        import zarr
-
         path = Path(path)
         commit = read_commit(path)
         try:
-            group = zarr.open_group(str(path), mode="r", zarr_format=3)
-            layout = _layout_from(group, commit["format"])
-            for v in layout.variables:
-                _array(group, v.name)
+            layout = read_layout(path, commit["format"])
         except InputError:
             raise
-        except Exception as error:
+        except Exception as error:  # of whichever library reads a part of it
             raise InputError(f"The arrays of {path} cannot be opened: {error}.") from error
         store = cls(path, layout, commit)
         _check_whole(store)
@@ -285,6 +305,7 @@ class RunStore(MemoryRunStore):
         return renamed(found) if self._commit["format"] == OLD_FORMAT else found
 
     def _store(self, index, data, commit, checkpoint, tables) -> None:
+        self.check_there()
         side = self.path / SIDE
         with disk(self.path, self.n_time):
             for v in self.layout.variables:
@@ -295,12 +316,21 @@ class RunStore(MemoryRunStore):
                 self._tables_of(kind).write(index, packed(kept))
             if checkpoint is not None:
                 commit["checkpoint"] = f"checkpoint-{index + 1:06d}.npz"
-                save(side / commit["checkpoint"], checkpoint)
-            replace(side / "commit.json", json.dumps(commit).encode())
+                content = npz_of(checkpoint)
+                replace(side / commit["checkpoint"], content)
+                commit = vouched(commit, CHECKPOINT, content, and_before=False)
+            write_commit(self.path, commit)
         before = self._commit["checkpoint"]
         self._commit = commit
         if before and before != commit["checkpoint"]:
             (side / before).unlink(missing_ok=True)
+
+    def check_there(self) -> None:
+        if _place_of(self.path) != self._place:
+            raise RunFailed(
+                f"The run's folder '{self.path.parent}' was moved or removed while it was in use; "
+                "move it back and go on with --resume, or run the case again."
+            )
 
     def _arrays(self) -> Mapping[str, Any]:
         from flexcage.results.lazy import Blocks, lazy_variable
@@ -308,8 +338,16 @@ class RunStore(MemoryRunStore):
         found = {}
         for v in self.layout.variables:
             what = f"holds samples of the array '{v.name}' that cannot be read"
-            refuse = partial(_damaged, self.path, what)
-            found[v.name] = lazy_variable(Blocks(self.layout, v, self._chunks(v).read, refuse))
+            refuse = partial(damaged, self.path, what)
+            read = partial(self._read, self._chunks(v))
+            found[v.name] = lazy_variable(Blocks(self.layout, v, read, refuse))
+        return found
+
+    def _read(self, chunks: Chunks, numbers: Sequence[int]) -> list[bytes | None]:
+        """Chunks, None for those that are not there; RunFailed if the folder is not."""
+        found = chunks.read(numbers)
+        if None in found:
+            self.check_there()
         return found
 
     def _chunk(self, var: Variable, values: np.ndarray) -> bytes:
@@ -323,14 +361,19 @@ class RunStore(MemoryRunStore):
     def _chunks(self, var: Variable) -> Chunks:
         """The blocks of a variable."""
         rest = ["0"] * (len(var.dims) - 1)
-        return Chunks(self.path / var.name / "c", _slots(self.layout), rest)
+        return Chunks(self.path / var.name / "c", slots(self.layout), rest)
 
     def _tables_of(self, kind: str) -> Chunks:
-        return Chunks(self.path / SIDE / kind, _slots(self.layout))
+        return Chunks(self.path / SIDE / kind, slots(self.layout))
 
     def checkpoint(self) -> dict[str, np.ndarray] | None:
         name = self._commit["checkpoint"]
-        return self._load(name) if name else None
+        if not name:
+            return None
+        found, file = self._load(name), self.path / SIDE / name
+        if not vouches(self._commit, CHECKPOINT, file.read_bytes()):
+            raise damaged(self.path, f"holds {SIDE}/{name}, which was changed afterwards")
+        return found
 
     def keep_last(self, state: Mapping[str, Any]) -> None:
         with disk(self.path, self.n_time):
@@ -341,10 +384,10 @@ class RunStore(MemoryRunStore):
 
     def _block_table(self, kind: str, block: int) -> dict[str, np.ndarray]:
         try:
-            (chunk,) = self._tables_of(kind).read([block])
+            (chunk,) = self._read(self._tables_of(kind), [block])
             return {} if chunk is None else unpacked(chunk)
         except UNREADABLE as error:
-            raise _damaged(
+            raise damaged(
                 self.path, f"holds {kind} of block {block} that cannot be read"
             ) from error
 
@@ -352,156 +395,61 @@ class RunStore(MemoryRunStore):
         """Arrays of a file of ``SIDE``."""
         try:
             return load(self.path / SIDE / name)
+        except FileNotFoundError:
+            raise damaged(self.path, f"lacks {SIDE}/{name}") from None
         except UNREADABLE as error:
-            raise _damaged(self.path, f"holds {SIDE}/{name}, which cannot be read") from error
+            raise damaged(self.path, f"holds {SIDE}/{name}, which cannot be read") from error
+
+    def vouch_for(self, name: str, content: bytes) -> None:
+        with disk(self.path, self.n_time):
+            self._commit = vouched(self._commit, name, content)
+            write_commit(self.path, self._commit)
+
+    def vouches_for(self, name: str, content: bytes) -> bool:
+        return vouches(self._commit, name, content)
 
 
-def read_commit(path: Path) -> dict[str, Any]:
-    """What a run on disk counts as committed; InputError for one of another format."""
+def _place_of(path: Path) -> tuple[int, int] | None:
+    """What tells a folder from another of its name; None if there is none."""
     try:
-        commit = json.loads((path / SIDE / "commit.json").read_text("utf-8"))
-    except FileNotFoundError:
-        raise InputError(
-            f"{path} holds no run of flexcage (it has no {SIDE}/commit.json).",
-            where="path",
-            value=str(path),
-        ) from None
-    except (OSError, ValueError) as error:
-        raise InputError(f"The commit file of {path} cannot be read: {error}.") from error
-    found = commit.get("format") if isinstance(commit, dict) else None
-    if found not in _READ:
-        raise InputError(
-            f"The run in {path} is stored in format {found}, and this flexcage "
-            f"({_version.__version__}) reads formats {OLD_FORMAT} to {FORMAT}: "
-            "open it with the flexcage that wrote it, or run the case again.",
-            where="path",
-            value=str(path),
-        )
-    return commit
-
-
-def _create_arrays(path: Path, layout: Layout) -> None:
-    import zarr
-    from zarr.codecs import BloscCodec, Crc32cCodec, TransposeCodec
-    from zarr.errors import ContainsGroupError
-
-    shape = {
-        "variables": [asdict(v) for v in layout.variables],
-        "coords": coords_to_json(layout.coords),
-        "n_time": layout.n_time,
-        "n_time_hf": layout.n_time_hf,
-        "block": layout.block,
-        "block_hf": layout.block_hf,
-    }
-    stored: dict[str, Any] = {
-        "flexcage_format": FORMAT,
-        "flexcage_version": _version.__version__,
-        "layout": json.dumps(shape),
-        "run": json.dumps(dict(layout.attrs)),
-        "coordinates": " ".join(sorted(layout.coords)),  # CF: those without a dimension of a name
-    }
-    try:
-        group = zarr.create_group(store=str(path), attributes=stored, zarr_format=3)
-    except ContainsGroupError as exc:  # it was empty a moment ago
-        raise InputError(
-            f"Another run has just begun in '{path}'; name another folder, or wait for it.",
-            where="out", value=str(path),
-        ) from exc  # fmt: skip
-    compressors = [BloscCodec(**BLOSC), Crc32cCodec()]
-    for v in layout.variables:
-        first, *rest = chunk = layout.chunk(v)
-        shards: Any = {"shape": (first * _slots(layout), *rest), "index_location": "start"}
-        group.create_array(
-            v.name,
-            shape=layout.shape(v),
-            chunks=chunk,
-            shards=shards,
-            dtype=v.stored,
-            fill_value=np.nan,
-            filters=TransposeCodec(order=layout.order(v)),
-            compressors=compressors,
-            dimension_names=v.dims,
-            attributes=dict[str, Any](v.attrs),
-        )
-    for name, (dims, values, attrs) in layout.coords.items():
-        kind = "string" if values.dtype.kind in "UOT" else values.dtype
-        labels = group.create_array(
-            name, shape=values.shape, dtype=kind, dimension_names=dims, attributes=attrs,
-            compressors=compressors,
-        )  # fmt: skip
-        labels[...] = values
-    with warnings.catch_warnings():  # readers then need not list the folder
-        warnings.filterwarnings("ignore", message=".*[Cc]onsolidated.*")
-        zarr.consolidate_metadata(str(path), zarr_format=3)
-
-
-def _array(group: Any, name: str) -> Any:
-    """An array of a group, refused in Zarr's format 2: that may hold pickles, which run code."""
-    array = group[name]
-    if array.metadata.zarr_format != 3:
-        raise ValueError(f"'{name}' is of Zarr format {array.metadata.zarr_format}, not 3")
-    return array
-
-
-def _layout_from(group: Any, of_format: int) -> Layout:
-    stored, run = (_unpacked_attr(group.attrs[name]) for name in ("layout", "run"))
-    if of_format == OLD_FORMAT:
-        stored = {**stored, "variables": [stored_then(v) for v in stored["variables"]]}
-    coords = coords_from_json(stored["coords"])
-    for grid in (TIME, TIME_HF):
-        if grid in group:
-            array = _array(group, grid)
-            coords[grid] = ((grid,), np.asarray(array[:]), dict(array.attrs))
-    return Layout(
-        tuple(Variable(**{**v, "dims": tuple(v["dims"])}) for v in stored["variables"]),
-        coords,
-        stored["n_time"],
-        stored["n_time_hf"],
-        stored["block"],
-        stored["block_hf"],
-        dict(run),
-    )
-
-
-def _unpacked_attr(value: Any) -> Any:
-    """The table that an attribute holds: as JSON text, or in format 5 as it is."""
-    return json.loads(value) if isinstance(value, str) else value
+        found = path.stat()
+    except OSError:
+        return None
+    return found.st_dev, found.st_ino
 
 
 def _check_whole(store: RunStore) -> None:
     """Refuse a run that lacks an array, or samples that were committed: they would read as NaN;
-    or one of the tables of its blocks."""
-    path, layout = store.path, store.layout
+    or one of the tables of its blocks; and one whose metadata were changed."""
+    path, layout, commit = store.path, store.layout, store._commit
     for grid, n in ((TIME, layout.n_time), (TIME_HF, layout.n_time_hf)):
-        if n and not (path / grid / "zarr.json").exists():
-            raise _damaged(path, f"lacks the instants '{grid}'")
+        if n and not (path / grid / NODE).exists():
+            raise damaged(path, f"lacks the instants '{grid}'")
+        if not commit[f"n_{grid}"] <= n:
+            raise damaged(path, f"counts more samples than it has instants '{grid}'")
+    stored = total = 0
     for v in layout.variables:
-        if not (path / v.name / "zarr.json").exists():
-            raise _damaged(path, f"lacks the array '{v.name}'")
         if 0 not in layout.shape(v):
             _check_there(store, store._chunks(v), f"samples of the array '{v.name}'")
+            stored += store._chunks(v).size(store.shown)
+            total += commit[f"n_{v.dims[0]}"] * prod(layout.shape(v)[1:]) * 8
     for kind in (*_EVERY, *([LOADS] if (path / SIDE / LOADS).is_dir() else [])):
         _check_there(store, store._tables_of(kind), f"{kind} of its blocks")
+    try:
+        check_size(total, stored)
+    except ValueError as error:
+        raise damaged(path, f"has samples of which {error}") from error
+    if commit["format"] >= CHECKSUMS and commit["metadata"] != metadata_checksum(path, layout):
+        raise damaged(
+            path, f"has case, labels or sizes ({NODE} of an array, or of all) that were changed "
+            "afterwards",
+        )  # fmt: skip
 
 
 def _check_there(store: RunStore, chunks: Chunks, what: str) -> None:
     try:
         there = chunks.holds(store.shown)
     except ValueError as error:
-        raise _damaged(store.path, f"holds {what} that cannot be read") from error
+        raise damaged(store.path, f"holds {what} that cannot be read") from error
     if not there:
-        raise _damaged(store.path, f"lacks {what}")
-
-
-def _slots(layout: Layout) -> int:
-    """Blocks that a file has room for."""
-    return min(SLOTS, max(layout.n_blocks, 1))
-
-
-def _damaged(path: Path, what: str) -> InputError:
-    return InputError(
-        f"The run in {path} is damaged: it {what}; bring it back from a copy, or run the case "
-        "again.",
-        where="path",
-        value=str(path),
-    )
+        raise damaged(store.path, f"lacks {what}")

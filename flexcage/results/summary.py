@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
+from itertools import islice
 from math import isfinite, pi
 from pathlib import Path
 from typing import Any
@@ -12,8 +13,11 @@ from typing import Any
 import numpy as np
 
 from flexcage.core import html
+from flexcage.core.binding import near_names
 from flexcage.core.digits import texts_with_margin
 from flexcage.core.errors import InputError
+from flexcage.core.listing import PAGE, aligned, wrapped
+from flexcage.core.reading import json_of
 from flexcage.core.warning import RunWarning
 from flexcage.core.writing import replace as replace_file
 from flexcage.results.known import BRIEF, KNOWN, marked
@@ -60,13 +64,19 @@ RESOLUTION = {
 }  # fmt: skip
 
 
+def resolution(shown: str) -> float:
+    """What counts as nothing of a value that is shown in this unit, in SI."""
+    if shown.endswith("/h"):
+        return 0.0
+    return RESOLUTION.get(shown, RESOLUTION.get(SHOWN[shown][0], 0.0))
+
+
 def format_value(value: float, shown: str = "", margin: float | None = None) -> tuple[str, str]:
     """Texts of a value and of its margin, both in SI, in the unit ``shown``: "100", "± 150".
 
     The second is empty where no margin is known. A value below what its unit resolves is "0".
     """
-    si, factor = SHOWN[shown]
-    nothing = 0.0 if shown.endswith("/h") else RESOLUTION.get(shown, RESOLUTION.get(si, 0.0))
+    nothing, factor = resolution(shown), SHOWN[shown][1]
     value = 0.0 if abs(value) < nothing else value * factor
     if margin is not None:
         margin = 0.0 if margin < nothing else margin * factor
@@ -75,6 +85,7 @@ def format_value(value: float, shown: str = "", margin: float | None = None) -> 
 
 
 _WORD = 16  # characters: a longer text is no figure, and stands in no column
+SUMMARY = "summary.json"  # in a run's folder
 _WARNINGS = "warnings"  # their key in a summary's JSON
 
 
@@ -175,12 +186,40 @@ def section_of(rows: Iterable[Row]) -> Section:
     return Section(KNOWN[figures[0].key].section, figures)
 
 
+def _cells(rows: Sequence[Row], *, brief: bool = False) -> list[Sequence[str]]:
+    """Label, figure and note of some rows; the values, margins and units of all of them stand in
+    columns. Words take the room of figure and note. ``brief`` notes are short."""
+    numbers = [r for r in rows if len(r.text) <= _WORD]
+    value = max((len(r.text) for r in numbers), default=0)
+    margin = max((len(r.margin_text) for r in numbers), default=0)
+    unit = max((len(r.shown) for r in numbers), default=0)
+    found: list[Sequence[str]] = []
+    for r in rows:
+        if len(r.text) > _WORD:
+            found.append((r.label, r.text))
+            continue
+        number = f"{r.text:>{value}} {r.margin_text:<{margin}} {r.shown:<{unit}}"
+        found.append((r.label, number, r.brief_note if brief else r.note))
+    return found
+
+
 def _rows_html(rows: Iterable[Row], *, brief: bool = False) -> str:
     """Label, value, margin, unit and note of figures; ``brief`` notes are short."""
     cells = [
         (r.label, r.text, r.margin_text, r.shown, r.brief_note if brief else r.note) for r in rows
     ]
     return html.table(cells, sides="lrl")
+
+
+class UnknownFigure(InputError, KeyError):
+    """A figure that a summary has not; a KeyError too, as of any mapping."""
+
+    __str__ = Exception.__str__
+
+    def __init__(self, key: str, known: Sequence[str]) -> None:
+        close = near_names(key, known, 1)
+        hint = f"the nearest name is '{close[0]}'" if close else "'flexcage figures' lists all"
+        super().__init__(f"The summary has no figure '{key}'; {hint}.", where="summary", value=key)
 
 
 @dataclass(frozen=True, repr=False)
@@ -204,7 +243,7 @@ class Summary:
         for row in self:
             if row.key == key:
                 return row
-        raise KeyError(key)
+        raise UnknownFigure(key, [row.key for row in self])
 
     def __contains__(self, key: str) -> bool:
         return any(row.key == key for row in self)
@@ -230,22 +269,26 @@ class Summary:
                 place = k
         return replace(self, sections=(*self.sections[:place], new, *self.sections[place:]))
 
-    def text(self) -> str:
-        """The warnings, then an aligned table: label, value (right-aligned), margin, unit, note."""
-        lines = self._warning_lines()
-        for section in self.sections:
-            if section.shown:
-                lines += ["", section.title] if lines else [section.title]
-                lines += self._table(section.shown)
-        return "\n".join(lines) or "(no figures)"
+    def text(self, width: int = 0) -> str:
+        """The warnings, then an aligned table: label, value (right-aligned), margin, unit, note;
+        in lines of at most ``width`` characters (0: as the terminal is wide)."""
+        shown = [section for section in self.sections if section.shown]
+        cells = iter(_cells([row for section in shown for row in section.shown]))
+        rows: list[Sequence[str]] = []
+        for section in shown:
+            rows += [*([()] if rows else []), (section.title,), *islice(cells, len(section.shown))]
+        return self._text(rows, width)
 
     __str__ = text
 
-    def brief(self) -> str:
+    def brief(self, width: int = 0) -> str:
         """The warnings and the dozen figures that matter, as ``text`` prints them."""
-        lines = self._warning_lines()
-        rows = self._brief_rows()
-        return "\n".join([*lines, *([""] if lines else []), *self._table(rows, brief=True)])
+        return self._text(_cells(self._brief_rows(), brief=True), width)
+
+    def _text(self, rows: Sequence[Sequence[str]], width: int) -> str:
+        table = aligned(rows, sides="lrl", indent=2, width=width)
+        parts = ["\n".join(self._warning_lines(width)), table]
+        return "\n\n".join(filter(None, parts)) or "(no figures)"
 
     def _brief_rows(self) -> list[Row]:
         wanted = marked(BRIEF)
@@ -268,32 +311,12 @@ class Summary:
         warned = html.bullets(f"Warning: {warning.text}" for warning in self.warnings or ())
         return warned + _rows_html(self._brief_rows(), brief=True)
 
-    def _warning_lines(self) -> list[str]:
+    def _warning_lines(self, width: int) -> list[str]:
         if self.warnings is None:
             return []
         if not self.warnings:
             return ["Warnings: none"]
-        return ["Warnings", *(f"  - {warning.text}" for warning in self.warnings)]
-
-    def _table(self, rows: Sequence[Row], *, brief: bool = False) -> list[str]:
-        """Lines of some rows, in columns as wide as all rows need, or the ``brief`` ones alone,
-        whose notes are short. Words stand in place of value, margin and unit."""
-        every = rows if brief else [row for section in self.sections for row in section.shown]
-        numbers = [r for r in every if len(r.text) <= _WORD]
-        label = max(len(r.label) for r in every)
-        value = max((len(r.text) for r in numbers), default=0)
-        margin = max((len(r.margin_text) for r in numbers), default=0)
-        unit = max((len(r.shown) for r in numbers), default=0)
-        lines = []
-        for r in rows:
-            line = f"  {r.label:<{label}}  "
-            if len(r.text) > _WORD:
-                lines.append(line + r.text)
-                continue
-            line += f"{r.text:>{value}} {r.margin_text:<{margin}} "
-            note = r.brief_note if brief else r.note
-            lines.append(f"{line}{r.shown:<{unit}}  {note}".rstrip())
-        return lines
+        return ["Warnings", *(wrapped(w.text, first="  - ", width=width) for w in self.warnings)]
 
     def to_dict(self) -> dict[str, Any]:
         """Warnings, if they were looked for, and every section's figures by their keys."""
@@ -321,7 +344,7 @@ class Summary:
     def from_json(cls, text: str, *, windows: Mapping[str, np.ndarray] | None = None) -> Summary:
         """The summary that ``to_json`` wrote; ``windows`` are its records' sums by key."""
         records = {key: Record(sums) for key, sums in (windows or {}).items()}
-        stored = json.loads(text)
+        stored = json_of(text)
         warned = stored.pop(_WARNINGS, None)
         return cls(
             tuple(
@@ -339,11 +362,21 @@ class Summary:
         )  # fmt: skip
 
     @classmethod
-    def read(cls, path: Path, *, windows: Mapping[str, np.ndarray] | None = None) -> Summary:
-        """The summary in a file that ``write`` wrote; InputError if it holds none."""
+    def read(
+        cls,
+        path: Path,
+        *,
+        windows: Mapping[str, np.ndarray] | None = None,
+        vouched: Callable[[str, bytes], bool] = lambda _name, _content: True,
+    ) -> Summary:
+        """The summary in a file that ``write`` wrote; InputError if it holds none, or if
+        ``vouched`` does not know its name and content."""
         try:
-            summary = cls.from_json(path.read_text("utf-8"), windows=windows)
+            content = path.read_bytes()
+            summary = cls.from_json(content.decode(), windows=windows)
             wrong = "" if list(summary) else "it has no figures"
+            if not wrong and not vouched(path.name, content):
+                wrong = "it was changed afterwards"
         except OSError as error:
             raise InputError(
                 f"The summary '{path}' cannot be read ({(error.strerror or str(error)).lower()}); "
@@ -351,7 +384,7 @@ class Summary:
                 where="summary",
                 value=str(path),
             ) from error
-        except (UnicodeDecodeError, json.JSONDecodeError) as error:
+        except ValueError as error:
             wrong = str(error)
         except (AttributeError, KeyError, TypeError):
             wrong = "it is no table of figures"
@@ -366,37 +399,15 @@ class Summary:
 
     def write(self, folder: str | Path) -> tuple[Path, Path]:
         """Write ``summary.txt`` and ``summary.json`` into ``folder``; returns their paths."""
-        text, data = Path(folder) / "summary.txt", Path(folder) / "summary.json"
-        replace_file(text, (self.text() + "\n").encode())
-        replace_file(data, (self.to_json() + "\n").encode())
+        text, data = Path(folder) / "summary.txt", Path(folder) / SUMMARY
+        replace_file(text, (self.text(PAGE) + "\n").encode())
+        replace_file(data, self.content)
         return text, data
 
-
-def side_by_side(summaries: dict[str, Summary]) -> str:
-    """An aligned table of the rows that any of the summaries holds, section by section, one column
-    a summary: figures with their margins."""
-    first = {r.key: r for s in reversed(summaries.values()) for r in s}
-    sections: dict[str, dict[str, None]] = {}
-    for section in (section for s in summaries.values() for section in s.sections):
-        if section.shown:
-            sections.setdefault(section.title, {}).update((r.key, None) for r in section.shown)
-    texts = {n: {r.key: r.text for r in s} for n, s in summaries.items()}
-    margins = {n: {r.key: r.margin_text for r in s} for n, s in summaries.items()}
-    label = max(len(r.label) for r in first.values())
-    width = {n: max([len(n), *map(len, t.values())]) for n, t in texts.items()}
-    beside = {n: max(map(len, m.values())) for n, m in margins.items()}
-    head = "".join(f"  {n:>{width[n]}} {'':{beside[n]}}" for n in summaries)
-    lines = [f"Warning, {n}: {w.text}" for n, s in summaries.items() for w in s.warnings or ()]
-    lines += [*([""] if lines else []), f"{'':<{label + 2}}{head}".rstrip()]
-    for title, keys in sections.items():
-        lines += ["", title]
-        for key in keys:
-            cells = "".join(
-                f"  {texts[n].get(key, '-'):>{width[n]}} {margins[n].get(key, ''):<{beside[n]}}"
-                for n in summaries
-            )
-            lines.append(f"  {first[key].label:<{label}}{cells}  {first[key].shown}".rstrip())
-    return "\n".join(lines)
+    @property
+    def content(self) -> bytes:
+        """What ``summary.json`` holds."""
+        return (self.to_json() + "\n").encode()
 
 
 def _json_value(v: Value) -> Value:

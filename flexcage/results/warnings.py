@@ -10,12 +10,13 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass
-from math import isfinite, pi
+from math import cos, isfinite, pi, sin
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from flexcage.contacts.spec import LandSpec
+from flexcage.core.reading import json_of
 from flexcage.core.units import describe
 from flexcage.core.warning import RunWarning
 from flexcage.geometry.bearing import Bearing, RingLand
@@ -28,18 +29,20 @@ from flexcage.results.audit import EXCEEDED, OF_CAGE, OF_DRIVE
 from flexcage.results.bootstrap import FEWEST
 from flexcage.results.edges import Edge
 from flexcage.results.elastic import ElasticShape, grown_into_ring, large_rotation
+from flexcage.results.known import NO_DRIFT
 from flexcage.results.summary import Summary
 
 if TYPE_CHECKING:
     import xarray
 
-_LEAST_TURNS = 1.0  # of the cage in the statistics: one brings every element through the load
+LEAST_TURNS = 1.0  # of the cage in the statistics: one brings every element through the load
 # a cage that is thrown off: the mean distance of its centre rises through so many equal parts of
 # the settled time, by so much in all, beyond so much of what its pockets leave it
 _PARTS, _GROWN, _BEYOND_POCKETS = 5, 1.3, 2.0
 # of a body from elsewhere: least share of a pocket's deflection that it holds, and difference of
-# its stiffness from the elements' beyond what meshes of one fineness differ by
-_CARRIED, _STIFFNESS = 0.97, 0.05
+# its stiffness and its mass from the elements', for stiffness beyond what meshes of one fineness do
+_CARRIED, _STIFFNESS, _LUMPED = 0.97, 0.05, 0.02
+_STRIBECK = 5.0  # ISO 76: the most loaded element has 5 times the mean of a radial load
 _PASSED = 1e-6  # m by which a cage must pass a ring, more than rounding
 
 Facts = TypeVar("Facts")
@@ -76,6 +79,7 @@ class Outcome:
     settle: float  # share of the run that statistics leave out
     edges: tuple[Edge, ...] = ()  # contact ellipses at grooves' edges
     shape: ElasticShape = ElasticShape()  # how far the cage deformed
+    said: frozenset[str] = frozenset()  # keys of what was said before the run
 
     @property
     def element(self) -> str:
@@ -101,7 +105,7 @@ def to_text(warnings: Iterable[RunWarning]) -> str:
 
 def from_attrs(attrs: Mapping[str, Any]) -> tuple[RunWarning, ...]:
     """Those that a run's store holds from its start; none in one of an earlier flexcage."""
-    return tuple(RunWarning(**values) for values in json.loads(attrs.get("warnings", "[]")))
+    return tuple(RunWarning(**values) for values in json_of(attrs.get("warnings", "[]")))
 
 
 # --- at the start --------------------------------------------------------------------------------
@@ -179,6 +183,17 @@ def _body_of_another_stiffness(setup: Setup) -> Iterator[RunWarning]:
         )
 
 
+def _body_of_lumped_mass(setup: Setup) -> Iterator[RunWarning]:
+    if setup.fit is not None and abs(setup.fit.mass - 1.0) > _LUMPED:
+        yield RunWarning(
+            "lumped_mass",
+            f"A mode of modes.body has {setup.fit.mass:.3g} times the mass that its shape has in "
+            "the cage's own elements, as lumped masses give it: inertia forces of such modes, and "
+            "their coupling to the motion of the whole cage, differ by as much; write consistent "
+            "masses, or take a finer mesh.",
+        )
+
+
 def _body_of_few_modes(setup: Setup) -> Iterator[RunWarning]:
     """The band that contacts excite is taken to end where an element bounces on a pocket's wall."""
     if setup.fit is None:
@@ -218,6 +233,7 @@ AT_START: tuple[Callable[[Setup], Iterator[RunWarning]], ...] = (
     _no_residual_flexibility,
     _body_too_stiff,
     _body_of_another_stiffness,
+    _body_of_lumped_mass,
     _body_of_few_modes,
     _rigid_land,
 )
@@ -245,6 +261,24 @@ def _yield(o: Outcome) -> Iterator[RunWarning]:
             f"The stress reaches {peak / 1e6:.0f} MPa, more than the proof stress of "
             f"{material.name} ({material.proof_stress / 1e6:.0f} MPa): a real cage would yield "
             "there, and this one is linear elastic.",
+        )
+
+
+def _overloaded(o: Outcome) -> Iterator[RunWarning]:
+    """Forces beyond what ISO 76 allows the most loaded element under the static rating: 5 C0r/(Z
+    cos(alpha)) of a radial bearing, C0a/(Z sin(alpha)) of a thrust bearing."""
+    b = o.bearing
+    angle = b.nominal_contact_angle
+    share = sin(angle) if b.is_thrust else cos(angle) / _STRIBECK
+    allowed = b.static_rating / (b.element_count * share)
+    largest = max((o.number("race_force_inner"), o.number("race_force_outer")), default=0.0)
+    if largest > allowed:
+        yield RunWarning(
+            "overloaded",
+            f"The largest force of a {o.element} on a race is {describe(largest, 'kN')}, "
+            f"{largest / allowed:.2g} times what the static rating allows one "
+            f"({describe(allowed, 'kN')}, ISO 76): a real race would be dented, and this one stays "
+            "elastic.",
         )
 
 
@@ -310,12 +344,14 @@ def _passes_ring(o: Outcome) -> Iterator[RunWarning]:
 
 
 def _short(o: Outcome) -> Iterator[RunWarning]:
+    if "short_run" in o.said:
+        return
     part = metrics.settled(o.dataset, o.settle)
     turns = abs(float(np.ptp(metrics.cage_angle(part)))) / (2.0 * np.pi)
     passes = o.number("roller_passes")
     stands = not np.any(part["inner_speed"].values)
     few = [f"intervals need {FEWEST} passes"] if passes < FEWEST else []
-    if turns < _LEAST_TURNS and not stands:
+    if turns < LEAST_TURNS and not stands:
         few.append("means need at least one turn of the cage")
     if few:
         yield RunWarning(
@@ -327,7 +363,7 @@ def _short(o: Outcome) -> Iterator[RunWarning]:
 
 def _drift(o: Outcome) -> Iterator[RunWarning]:
     drift = o.summary["drift"] if "drift" in o.summary else None
-    if drift not in (None, "nothing"):
+    if drift not in (None, *NO_DRIFT):
         yield RunWarning(
             "not_settled",
             f"The two halves of the settled part differ beyond the intervals in: {drift}; raise "
@@ -394,6 +430,7 @@ def _um(length: float) -> str:
 AT_END: tuple[Callable[[Outcome], Iterator[RunWarning]], ...] = (
     _unfinished,
     _yield,
+    _overloaded,
     _thrown_off,
     _passes_ring,
     _large_rotation,

@@ -8,11 +8,9 @@ import numpy as np
 
 from flexcage.cages import cage_type_of
 from flexcage.case import Case
-from flexcage.case.checks import land_beside_shoulder, not_reached
 from flexcage.core.errors import InputError
 from flexcage.core.threads import one_blas_thread
 from flexcage.core.warning import RunWarning
-from flexcage.geometry.temperature import beyond_service
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.reduction import CageReduction
 from flexcage.results.warnings import AT_START, Setup, warnings_of
@@ -27,8 +25,9 @@ log = logging.getLogger(__name__)
 def warnings_at_start(
     case: Case, mesh: CageMesh, cage: CageReduction | None, start: Start
 ) -> tuple[RunWarning, ...]:
-    """What must be known of a run before it begins, logged too; InputError for a cage that its
-    assembly alone stresses more than the case allows."""
+    """What must be known of a run before it begins, beside what its case alone tells
+    (``foreseen``), logged too; InputError for a cage that its assembly alone stresses more than the
+    case allows."""
     setup = Setup(
         bearing=case.bearing,
         cage=case.cage,
@@ -43,15 +42,7 @@ def warnings_at_start(
         fit=None if cage is None else cage.fit,
         highest=0.0 if cage is None else float(cage.table.frequency.max()),
     )
-    said = [("not_reached", s) for s in not_reached(case)]
-    said += [("land_clearance", s) for s in land_beside_shoulder(case)]
-    if text := beyond_service(case.cage.material, case.cage.temperature):
-        said.append(("cage_temperature", text))
-    found = (
-        *(RunWarning(*each) for each in said),
-        *warnings_of(AT_START, setup),
-        *_assembly_stress(case, cage, start),
-    )
+    found = (*warnings_of(AT_START, setup), *_assembly_stress(case, cage, start))
     for warning in found:
         log.warning(warning.text)
     return found

@@ -13,12 +13,16 @@ import logging
 from pathlib import Path
 from typing import Any
 
+from flexcage._version import __version__
 from flexcage.case import Case, load_case
+from flexcage.case.extensions import sources
 from flexcage.core.binding import flat
 from flexcage.core.errors import FlexcageError, InputError, unwritable
 from flexcage.core.locks import LOCK
+from flexcage.core.sources import physics
 from flexcage.core.warning import RunWarning
-from flexcage.core.writing import replace
+from flexcage.core.writing import check_own, replace
+from flexcage.results import mode_file
 from flexcage.results.cage_file import (
     NAME,
     CageFile,
@@ -28,7 +32,9 @@ from flexcage.results.cage_file import (
     shared_cage,
     write_cage,
 )
+from flexcage.results.commit import damaged
 from flexcage.results.store import MemoryRunStore, RunStore
+from flexcage.results.summary import SUMMARY
 
 log = logging.getLogger(__name__)
 
@@ -43,6 +49,12 @@ def was_written(folder: Path) -> bool:
     """Whether a run was to be written to ``folder``, though it may not have begun yet."""
     return (folder / "case.toml").is_file()
 
+
+#: What flexcage reads and writes in a run's folder, beside the page, which it only replaces.
+_OURS = (
+    "case.toml", "results.zarr", NAME, SUMMARY, "summary.txt", mode_file.FILE, "images", "figures",
+    "vtu",
+)  # fmt: skip
 
 #: What a run leaves that is killed before its case is on disk.
 LEFT_OVER = (LOCK, "case.toml.new")
@@ -65,13 +77,21 @@ def check_written(folder: Path) -> None:
         )
 
 
-def begun_store(folder: Path, case: Case) -> RunStore | None:
+def check_links(folder: Path) -> None:
+    """InputError if what flexcage reads or writes in a run's folder is a link, which may lead
+    anywhere."""
+    check_own(*(folder / name for name in _OURS))
+
+
+def begun_store(folder: Path, case: Case, *, other_version: bool = False) -> RunStore | None:
     """The store of the case's run in ``folder``; None if it has not come so far that it can be
     gone on with.
 
     What one left that was killed before is removed, to be begun anew. InputError if the folder
-    holds the run of another case, or one in another format.
+    holds the run of another case, one in another format, or one of another flexcage's physics
+    unless ``other_version`` allows that.
     """
+    check_links(folder)
     if not was_written(folder):
         log.warning("the run in '%s' was stopped before it had begun; it begins now", folder)
         return None
@@ -88,7 +108,50 @@ def begun_store(folder: Path, case: Case) -> RunStore | None:
     if store is None:
         RunStore.clear_unbegun(path)
         log.warning("the run in '%s' was stopped before its first block; it begins anew", folder)
+    elif not store.complete:
+        _check_physics(folder, store, other_version)
     return store
+
+
+def _check_physics(folder: Path, store: RunStore, allowed: bool) -> None:
+    """Refuse, or note, that a run is gone on with by sources other than those it has so far."""
+    seams = store.seams
+    before = seams[-1] if seams else store.layout.attrs
+    if before.get("physics") == physics():
+        return
+    by = f"flexcage {before.get('version', 'of an earlier version')}"
+    if before.get("version") == __version__:
+        by = f"another state of flexcage {__version__}"
+    if not allowed:
+        raise InputError(
+            f"The run in '{folder}' was begun by {by}, whose sources of physics differ from those "
+            f"of this flexcage {__version__}: from {store.n_time:,} samples on it would follow "
+            "another model. Go on with the one that began it, run the case again, or take "
+            "--other-version (in Python, other_version=True), which summary and report then say.",
+            where="resume",
+            value=before.get("physics"),
+        )
+    store.go_on_by(__version__, physics())
+    log.warning("%s", seam_warnings(store)[-1].text)
+
+
+def seam_warnings(store: MemoryRunStore) -> list[RunWarning]:
+    """Where a run was gone on with by another flexcage, or an edited one."""
+    found, attrs, t = [], store.layout.attrs, store.layout.coords["time"][1]
+    before = attrs.get("version", "an earlier one")
+    for seam in store.seams:
+        at = min(seam["sample"], len(t)) - 1
+        when = f"{1e3 * t[at]:.6g} ms" if at >= 0 else "its beginning"
+        found.append(
+            RunWarning(
+                "other_version",
+                f"From {when} on (sample {seam['sample']:,}) the run was gone on with by other "
+                f"sources of physics: flexcage {seam['version']}, before that {before}; two models "
+                "may meet there, so statistics over both say little.",
+            )
+        )
+        before = seam["version"]
+    return found
 
 
 def _difference(case: Case, stored: Case) -> str:
@@ -104,8 +167,15 @@ def _stored(folder: Path, store: RunStore | None) -> tuple[Case, str]:
     if store is None:
         stored = load_case(folder / "case.toml")
         return stored, stored.hash
-    attrs = store.layout.attrs
-    return load_case(attrs["case"]), attrs["hash"]
+    return load_case(_kept(store, "case")), _kept(store, "hash")
+
+
+def _kept(store: MemoryRunStore, name: str) -> str:
+    """A text that the results hold beside the numbers; InputError if they do not."""
+    text = store.layout.attrs.get(name)
+    if not isinstance(text, str):
+        raise damaged(Path(str(store.path)), f"does not say its '{name}'")
+    return text
 
 
 def _without_its_files(case: Case, stored: Case) -> bool:
@@ -128,7 +198,7 @@ def keep_cage(folder: Path, file: CageFile, *, study: Path | None = None) -> Non
 
 def kept_cage(folder: Path, store: MemoryRunStore) -> CageRecord:
     """The cage of a stored run; InputError if it is missing or another one."""
-    digest = store.layout.attrs["cage"]
+    digest = _kept(store, "cage")
     path = find_cage(folder, digest)
     record = read_cage(path)
     if record.digest != digest:
@@ -144,9 +214,11 @@ def kept_cage(folder: Path, store: MemoryRunStore) -> CageRecord:
 def open_folder(folder: Path) -> tuple[Case, MemoryRunStore, tuple[RunWarning, ...]]:
     """The case and the store of a run folder. The case is that of the results: an edit of
     case.toml is ignored, and the warning names it."""
+    check_links(folder)
     store = RunStore.open(folder / "results.zarr")
-    text = store.layout.attrs["case"]
+    text = _kept(store, "case")
     case = load_case(text)
+    _check_hash(folder, case, store)
     edit = _edit(folder / "case.toml", text, case)
     if not edit:
         return case, store, ()
@@ -155,6 +227,21 @@ def open_folder(folder: Path) -> tuple[Case, MemoryRunStore, tuple[RunWarning, .
     )
     log.warning(warning.text)
     return case, store, (warning,)
+
+
+def _check_hash(folder: Path, case: Case, store: MemoryRunStore) -> None:
+    """InputError if the case in the results has not the hash that stands beside it. Files and
+    functions of the user's own, or another flexcage, may change the hash of the same text."""
+    attrs = store.layout.attrs
+    same = attrs.get("physics") == physics() and not case.files and not sources()
+    if same and _kept(store, "hash") != case.hash:
+        raise InputError(
+            f"The results in '{folder}' name the case {attrs['hash']}, but hold the text of the "
+            f"case {case.hash}: one of them was changed afterwards; bring the folder back from a "
+            "copy, or run the case again.",
+            where="case",
+            value=attrs["hash"],
+        )
 
 
 def _edit(path: Path, text: str, case: Case) -> str:

@@ -9,18 +9,54 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.case import description
+from flexcage.core.writing import check_own
+from flexcage.render import album
 from flexcage.render.album import Scene, StressPictures
+from flexcage.results import spectra
+from flexcage.results.metrics import settled
+from flexcage.run.rings import draw_rings, ring_pictures
 from flexcage.stress.midpoints import at_nodes, largest_at_nodes
 from flexcage.stress.series import ABOUT_PEAK
 from flexcage.system.bodies import loads_over
 
 if TYPE_CHECKING:
+    from flexcage.render.look import Look
     from flexcage.report.run_page import RunAccount
     from flexcage.run.run import Run
 
 
-def scene_of(run: Run, *, animate: bool = False) -> Scene:
-    """What pictures and reports show of the run; ``animate`` adds an animation's frames."""
+def picture_names_of(run: Run) -> list[str]:
+    """Names of the run's pictures."""
+    part = settled(run.dataset, run.case.output.settle)
+    names = album.picture_names(
+        flexible=run.cage is not None, resolved=spectra.resolves(part, run.numbers)
+    )
+    return [*names, *ring_pictures(run.case)]
+
+
+def draw_pictures(
+    run: Run, folder: Path, *, animate: bool, look: Look, only: Sequence[str], format: str
+) -> list[Path]:
+    """Draw the run's pictures, or only some: paths of the files. InputError for a name that is
+    none, before anything is computed."""
+    run.store.check_there()
+    if run.folder and folder.is_relative_to(run.folder):
+        check_own(folder)
+    album.check_names(only, [*picture_names_of(run), *(["stress"] if animate else [])])
+    rings = [name for name in ring_pictures(run.case) if not only or name in only]
+    paths: list[Path] = []
+    if len(rings) < len(only) or not only:
+        scene = scene_of(run, animate=animate, stress=album.need_stress(only))
+        paths = album.draw_album(
+            scene, folder, animate=animate, look=look, only=only, format=format,
+            progress=run.stages.progress,
+        )  # fmt: skip
+    return [*paths, *draw_rings(run, folder, rings)] if rings else paths
+
+
+def scene_of(run: Run, *, animate: bool = False, stress: bool = True) -> Scene:
+    """What pictures and reports show of the run; ``animate`` adds an animation's frames, and
+    without ``stress`` that of a flexible cage is left out."""
     case, load = run.case, run.case.load
     radial, axial = loads_over(load, run.dataset["time"].values).T
     return Scene(
@@ -35,7 +71,7 @@ def scene_of(run: Run, *, animate: bool = False) -> Scene:
         clearance=case.land.clearance if case.bearing.land(case.cage) else None,
         guide=case.cage.land_ring,
         settle=case.output.settle,
-        stress=_stress_pictures(run, animate) if run.cage is not None else None,
+        stress=_stress_pictures(run, animate) if stress and run.cage is not None else None,
     )
 
 

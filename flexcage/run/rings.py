@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,6 +18,7 @@ from flexcage.system.rings_in_motion import SIDES
 from flexcage.system.statics.rings import BentRing, SeatedRing
 
 if TYPE_CHECKING:
+    from flexcage.case import Case
     from flexcage.run.run import Run
 
 
@@ -62,10 +64,17 @@ def _bears(ring: SeatedRing, pressed: np.ndarray) -> np.ndarray:
     return bears if np.linalg.matrix_rank(held, tol=1e-6) == 2 else np.ones_like(bears)
 
 
-def draw_rings(run: Run, folder: Path) -> list[Path]:
-    """Pictures of the rings that bend, when they yield most."""
+def ring_pictures(case: Case) -> list[str]:
+    """Names of the pictures of a case's rings that bend."""
+    bends = (("inner", case.inner_ring), ("outer", case.outer_ring))
+    return [f"{side}_ring" for side, ring in bends if ring.bends]
+
+
+def draw_rings(run: Run, folder: Path, names: Sequence[str]) -> list[Path]:
+    """Pictures of these names of the rings that bend, when they yield most."""
     time, rings = rings_at(run, None)
-    when, name = f"at {1e3 * time:.2f} ms", run.case.name
+    when, case = f"at {1e3 * time:.2f} ms", run.case.name
+    drawn = [ring for ring in rings if f"{ring.side}_ring" in names]
     return [
-        draw_ring(ring, folder / f"{ring.side}_ring.png", when=when, name=name) for ring in rings
+        draw_ring(ring, folder / f"{ring.side}_ring.png", when=when, name=case) for ring in drawn
     ]

@@ -31,8 +31,8 @@ from flexcage.results.film import film_thickness
 from flexcage.results.metrics import BearingNumbers, settled
 from flexcage.results.statistics import element_passes
 from flexcage.results.store import MemoryRunStore
-from flexcage.results.summary import Row, Summary
-from flexcage.run.rings import draw_rings, rings_at, seated_rings
+from flexcage.results.summary import SUMMARY, Row, Summary
+from flexcage.run.rings import rings_at, seated_rings
 from flexcage.run.summary import summary_of, timed, warned, with_stress
 from flexcage.solve.contract import Effort
 from flexcage.stress.fatigue import Fatigue
@@ -52,7 +52,6 @@ if TYPE_CHECKING:
 
     from flexcage.mesh.riveted_joint import JointMesh
     from flexcage.render.album import Scene
-    from flexcage.render.look import Look
     from flexcage.stress.riveted_joint import Fits
 
 log = logging.getLogger(__name__)
@@ -134,8 +133,8 @@ class Run:
     @cached_property
     def summary_at_end(self) -> Summary:
         """The summary as the run's end made it: one in a study may have left its stress out."""
-        if self.folder and (self.folder / "summary.json").exists():
-            stored = Summary.read(self.folder / "summary.json")
+        if self.folder and (self.folder / SUMMARY).exists():
+            stored = Summary.read(self.folder / SUMMARY, vouched=self.store.vouches_for)
             return stored if stored.warnings is not None else warned(stored, self)
         return summary_of(self)
 
@@ -295,6 +294,21 @@ class Run:
             series = frames(chosen, field_at, bar.advance)
             return write_series(folder, "cage", self.mesh.points, self.mesh.tets, series)
 
+    def write_table(
+        self, path: str | Path, variables: Sequence[str] | None = None, *, force: bool = False
+    ) -> list[Path]:
+        """Write variables over time as a table (.csv, .parquet) or as matrices (.mat) for other
+        programs; paths of the files, one for each time axis where there are several.
+
+        Takes those of ``dataset``, and ``stress``, ``stress_peak``, ``film_thickness``, ``events``
+        and ``steps``; by default the states of rings and cage (``results.export``). Raises
+        InputError for a variable that the run does not have, another ending, or a file that is
+        there, unless ``force`` is given.
+        """
+        from flexcage.run.tables import write_table
+
+        return write_table(self, Path(path), variables, force=force)
+
     def draw(
         self,
         folder: str | Path,
@@ -303,37 +317,54 @@ class Run:
         view: float | str | None = None,
         stress_limit: float | str | None = None,
         scale: float | None = None,
+        only: Sequence[str] = (),
+        format: str = "png",
     ) -> list[Path]:
-        """Draw every picture of the run into ``folder``; paths of the files.
+        """Draw every picture of the run into ``folder``, or ``only`` those of these names
+        (``picture_names``); paths of the files.
 
         ``view``, an azimuth of the cage [rad], is turned to the viewer in pictures of the cage;
         ``stress_limit`` [Pa] ends the colours of stress, and deformation is drawn ``scale`` times:
         the same for several runs, their pictures can be laid side by side. Text carries units. Not
         given, the view is from pocket 0, that of the mesh from its first defect, and the other two
-        follow the run (``render.Look``).
+        follow the run (``render.Look``). ``format`` "svg" or "pdf" makes vector graphics of curves
+        (orbit, histories, spectra); scenes stay .png. InputError for a name that is none.
         """
+        from flexcage.render.album import check_format
         from flexcage.render.look import Look
+        from flexcage.run.pictures import draw_pictures
 
+        check_format(format)
+        names = [only] if isinstance(only, str) else list(only)
         given = {"view": view, "stress_limit": stress_limit, "scale": scale}
         look = Binder(si=True).bind(Look, given, "")
-        paths = self.stages("pictures", self._draw, Path(folder), animate, look)
+        paths = self.stages(
+            "pictures", draw_pictures, self, Path(folder), animate=animate, look=look, only=names,
+            format=format,
+        )  # fmt: skip
         if self.effort is not None:
             self.tell_times()
         return paths
 
-    def _draw(self, folder: Path, animate: bool, look: Look) -> list[Path]:
-        from flexcage.render.album import draw_album
+    @property
+    def picture_names(self) -> list[str]:
+        """Names of the run's pictures."""
+        from flexcage.run.pictures import picture_names_of
 
-        scene = self.scene(animate=animate)
-        drawn = draw_album(scene, folder, animate=animate, look=look, progress=self.stages.progress)
-        return [*drawn, *draw_rings(self, folder)] if "ring_load" in self.dataset else drawn
+        return picture_names_of(self)
 
     def tell_times(self) -> None:
         """Bring the wall times of a run just computed up to now in its summary, the stored one
         included."""
         self.summary = timed(self.summary, self)
+        self._write_summary(self.summary)
+
+    def _write_summary(self, summary: Summary) -> None:
+        """Store it, for a run that has a folder; RunFailed if that is gone."""
         if self.folder:
-            self.summary.write(self.folder)
+            self.store.check_there()
+            self.store.vouch_for(SUMMARY, summary.content)
+            summary.write(self.folder)
 
     def report(self, path: str | Path, *, progress: Callable[..., Any] | None = None) -> Path:
         """Write the run's report, one HTML file that needs no other; returns its path.
@@ -361,11 +392,15 @@ class Run:
         """The run's pictures, and why there are none; drawn into ``spare`` if it has no folder."""
         folder = self.folder / "images" if self.folder else spare
         images = sorted(folder.glob("*.png"))
+        lacking = [name for name in self.picture_names if folder / f"{name}.png" not in images]
         try:
-            drawn = images or self.draw(folder if os.access(folder.parent, os.W_OK) else spare)
+            if lacking:
+                into = folder if os.access(folder.parent, os.W_OK) else spare
+                drawn = self.draw(into, only=lacking)
+                images += [path for path in drawn if path.suffix == ".png"]
         except EnvironmentLacks as exc:
-            return [], str(exc)
-        return [path for path in drawn if path.suffix == ".png"], ""
+            return images, "" if images else str(exc)
+        return images, ""
 
     def scene(self, *, animate: bool = False) -> Scene:
         """What pictures and reports show of the run; ``animate`` adds an animation's frames."""
@@ -378,9 +413,10 @@ class Run:
         the integration took; without ``stress``, this is left out where it surely stays below
         the proof stress."""
         self.effort = effort
+        self.store.check_there()
         self.summary_at_end = summary_of(self, stress=stress)
+        self._write_summary(self.summary_at_end)
         if self.folder:
-            self.summary_at_end.write(self.folder)
             if self.cage is not None:
                 mode_file.write_modes(self.mode_table, self.folder / mode_file.FILE)
         return self

@@ -8,12 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
+from flexcage._version import __version__
 from flexcage.bearings import recording_of
 from flexcage.bodies.cage import BODY_VERSION, flexible_from_reduction
 from flexcage.cages.build import reduction_of
 from flexcage.case import Case
 from flexcage.core.cache import cached_arrays
 from flexcage.core.hashing import content_hash
+from flexcage.core.sources import physics
 from flexcage.core.timing import Stages
 from flexcage.core.warning import RunWarning
 from flexcage.integrate.recorded import new_store
@@ -21,7 +23,7 @@ from flexcage.results import room
 from flexcage.results.cage_file import FORMAT, CageFile, cage_file, cage_record, check_same
 from flexcage.results.store import MemoryRunStore
 from flexcage.results.warnings import to_text
-from flexcage.run.folder import keep_cage, kept_cage, write_case
+from flexcage.run.folder import check_links, keep_cage, kept_cage, write_case
 from flexcage.stages import Cage, made_cage
 from flexcage.system.problem import Bearing
 
@@ -37,8 +39,12 @@ def run_store(
 ) -> MemoryRunStore:
     """A new store to write to, in ``folder`` or in memory; the folder receives case and cage, or
     its ``study`` the cage."""
-    attrs = {"case": case.to_toml(), "hash": case.hash, "warnings": to_text(warned)}
+    attrs = {
+        "case": case.to_toml(), "hash": case.hash, "version": __version__, "physics": physics(),
+        "warnings": to_text(warned),
+    }  # fmt: skip
     if folder is not None:
+        check_links(folder)
         announce_room(case, bearing, folder)
         write_case(folder, case)
         file = _cage_file(case, cage)

@@ -17,6 +17,7 @@ from flexcage.results.metrics import SlipRange, settled
 from flexcage.results.summary import Row, Summary, figure
 from flexcage.results.warnings import AT_END, Outcome, from_attrs, warnings_of
 from flexcage.run.elastic import elastic_shape
+from flexcage.run.folder import seam_warnings
 from flexcage.solve.contract import Effort
 from flexcage.system.bodies import unbalance_of
 
@@ -70,6 +71,7 @@ def with_stress(summary: Summary, run: Run) -> Summary:
 def warned(summary: Summary, run: Run) -> Summary:
     """The summary with its warnings."""
     case = run.case
+    known = (*from_attrs(run.dataset.attrs), *seam_warnings(run.store))
     outcome = Outcome(
         summary=summary,
         dataset=run.dataset,
@@ -80,8 +82,8 @@ def warned(summary: Summary, run: Run) -> Summary:
         settle=case.output.settle,
         edges=tuple(run.groove_edges),
         shape=elastic_shape(run),
+        said=frozenset(warning.key for warning in known),
     )
-    known = from_attrs(run.dataset.attrs)
     return dataclasses.replace(summary, warnings=(*known, *warnings_of(AT_END, outcome)))
 
 

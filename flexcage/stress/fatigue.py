@@ -24,6 +24,7 @@ import numpy as np
 from flexcage.core.binding import did_you_mean
 from flexcage.core.digits import texts_with_margin
 from flexcage.core.errors import InputError
+from flexcage.core.listing import aligned, wrapped
 from flexcage.results.bootstrap import NO_INTERVAL
 from flexcage.results.statistics import Record, Windows
 from flexcage.stress.counting import (
@@ -40,6 +41,9 @@ from flexcage.stress.sn_curves import SNCurve
 _DIRECTIONS = 64  # planes looked at first, spread evenly
 _STEPS = np.radians([10.0, 5.0, 2.5, 1.25])  # by which the best one is turned then
 _HOUR = 3600.0
+_HEADS = (
+    "place", "damage/h", "±", "life, h", "cycles/s", "from MPa", "to MPa", "once a turn, MPa",
+)  # fmt: skip
 _LONG = 1e9  # hours that no cage is asked for
 
 
@@ -118,22 +122,20 @@ class Fatigue:
         if rows is not None and rows < 1:
             raise InputError(f"rows is {rows}, but must be at least 1.", where="rows", value=rows)
         order = sorted(self.places, key=lambda p: (-p.damage_rate, -p.largest_range))[:rows]
-        width = max(len(p.place) for p in order)
-        head = " damage/h        ±     life, h  cycles/s   from MPa     to MPa  once a turn, MPa"
-        lines = [f"{'place':<{width}}  {head}"]
+        lines: list[tuple[str, ...]] = [_HEADS]
         for p in order:
             rate, half = texts_with_margin(p.damage_rate * _HOUR, p.margin * _HOUR)
-            turn = f"{p.amplitude / 1e6:.2f}" if isfinite(p.amplitude) else "-"
-            lines.append(
-                f"{p.place:<{width}}  {rate:>9} {half or '-':>9}  "
-                f"{_hours(p.life_hours):>9}  {p.cycles:8.0f}  {p.largest[0] / 1e6:9.2f}  "
-                f"{p.largest[1] / 1e6:9.2f}  {turn:>16}"
-            )
+            lines.append((
+                p.place, rate, half or "-", _hours(p.life_hours), f"{p.cycles:.0f}",
+                *(f"{stress / 1e6:.2f}" for stress in p.largest),
+                f"{p.amplitude / 1e6:.2f}" if isfinite(p.amplitude) else "-",
+            ))  # fmt: skip
+        said = [aligned(lines, sides="lr", heads=True)]
         if not all(isfinite(p.margin) for p in order):
-            lines.append(NO_INTERVAL)
+            said.append(wrapped(NO_INTERVAL))
         if not all(isfinite(p.amplitude) for p in order):
-            lines.append("No stress once a turn (-): the cage does not turn.")
-        return "\n".join([*lines, self.grounds()])
+            said.append("No stress once a turn (-): the cage does not turn.")
+        return "\n".join([*said, wrapped(self.grounds())])
 
     def grounds(self) -> str:
         """The S-N curve with its source and what it assumes, and how mean stress counts."""

@@ -15,7 +15,7 @@ import numpy as np
 
 from flexcage.fem.model import lame
 from flexcage.fem.revolved import PSI, R, Revolved, X
-from flexcage.modes.ring import spectrum
+from flexcage.modes.ring import spectrum, strip
 from flexcage.stress.operators import von_mises
 from flexcage.system.statics.rings import BentRing
 
@@ -78,10 +78,10 @@ def ring_field(ring: BentRing, *, stations: int | None = None) -> RingField:
         on_race = spectrum(n, reduction.along)[:, None]
         series[:, :2] = on_race * (wave(np.multiply.outer(n, ring.azimuth)) @ ring.force)
         if len(ring.bears):
-            on_seat = spectrum(n, seated.support_length)
-            series[:, 2] = on_seat * (
-                wave(np.multiply.outer(n, seated.support)) @ -ring.support_force
-            )
+            on_seat = strip(n[:, None], seated.width)
+            series[:, 2] = (
+                on_seat * wave(np.multiply.outer(n, seated.support))
+            ) @ -ring.support_force
     model = reduction.model
     displacement = np.zeros((count, model.n_dof // 3, 3))
     stress = np.zeros((count, model.n_dof // 3, 6))

@@ -23,6 +23,7 @@ from flexcage.contacts.spec import LandSpec
 from flexcage.core.binding import wrong_type
 from flexcage.core.digits import number_text, texts_with_margin
 from flexcage.core.errors import InputError
+from flexcage.core.listing import aligned, wrapped
 from flexcage.core.wings import FAMILIES
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
@@ -91,8 +92,9 @@ class Wear:
         """An aligned table of the pocket faces that wear and of the land, with depths at first and
         after ``hours``, and what stands behind."""
         ds, after = self.dataset, self.depth(hours)
-        after_text = f"um in {hours:g} h"
-        lines = [f"{'pocket':>6}  {'face':<6}     mm^3/h         ±  um/h, first  {after_text:>12}"]
+        lines: list[tuple[str, ...]] = [
+            ("pocket", "face", "mm^3/h", "±", "um/h, first", f"um in {hours:g} h")
+        ]
         known = True
         for k, face in ((k, f) for k in ds["pocket"].values for f in ds["face"].values):
             at = {"pocket": k, "face": face}
@@ -103,27 +105,24 @@ class Wear:
                 )
                 rate, half = texts_with_margin(volume * 1e9, margin * 1e9)
                 known = known and isfinite(margin)
-                lines.append(
-                    f"{k:>6}  {face:<6}  {rate:>9} {half or '-':>9}  "
-                    f"{depth * 1e6:11.4g}  {float(after.sel(at)) * 1e6:12.4g}"
-                )
-        lines += [] if known else [NO_INTERVAL]
+                depths = (f"{d * 1e6:.4g}" for d in (depth, float(after.sel(at))))
+                lines.append((str(k), str(face), rate, half or "-", *depths))
+        said = [] if known else [NO_INTERVAL]
         volume, depth = (float(ds[f"land_{what}_rate"]) * _HOUR for what in ("volume", "depth"))
         if isnan(volume):
-            lines.append("land: a film carries it, and Archard's law says nothing of its wear.")
+            said.append("land: a film carries it, and Archard's law says nothing of its wear.")
         elif volume > 0.0:
-            lines.append(
-                f"{'land':>6}  {'':<6}  {number_text(volume * 1e9):>9} {'':9}  "
-                f"{depth * 1e6:11.4g}  {depth * hours * 1e6:12.4g}"
-            )
+            depths = (f"{d * 1e6:.4g}" for d in (depth, depth * hours))
+            lines.append(("land", "", number_text(volume * 1e9), "", *depths))
         radius = ds["groove_radius"]  # none on flat ends
         if bool(((after > _SHALLOW * radius) & (radius > 0.0)).any()):
-            lines.append(
+            said.append(
                 f"depths beyond {_SHALLOW * float(radius.max()) * 1e6:.3g} um, a tenth of the "
                 "element's radius, no cage has: take fewer hours, or a coefficient of the "
                 "lubricated cage"
             )
-        return "\n".join([*lines, self.grounds()])
+        table = aligned(lines, sides="rlr", heads=True)
+        return "\n".join([table, *map(wrapped, (*said, self.grounds()))])
 
     def grounds(self) -> str:
         """The coefficient with its source and what it assumes."""

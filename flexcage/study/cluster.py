@@ -23,7 +23,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from flexcage.compiling import SAME_PACKAGE
-from flexcage.core.errors import EnvironmentLacks, InputError, RunFailed
+from flexcage.core.errors import EnvironmentLacks, InputError, RunFailed, install
 
 log = logging.getLogger(__name__)
 
@@ -45,8 +45,7 @@ def require_packages() -> None:
     for module, name in _PACKAGES.items():
         if find_spec(module) is None:
             raise EnvironmentLacks(
-                f"Studies need {name}, which is not installed here; install it with: "
-                'pip install "flexcage[study]"'
+                f"Studies need {name}, which is not installed here; install it {install('study')}"
             )
 
 

@@ -1,57 +1,88 @@
-"""Two runs compared: a table of their figures and a picture of their cage forces."""
+"""Two runs compared: their figures, a picture of their cage forces, and a page of both."""
 
 from __future__ import annotations
 
-import json
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from flexcage.case import Case
-from flexcage.results.summary import side_by_side
+from flexcage.case import Case, description
+from flexcage.core.errors import InputError
+from flexcage.core.listing import PAGE
+from flexcage.core.writing import replace
+from flexcage.results.compared import Comparison
 from flexcage.run import Run
+from flexcage.run.foreseen import told_at_once
 from flexcage.simulate import load_run, simulate
 
-
-def compare_runs(runs: dict[str, Run], *, out: str | Path) -> str:
-    """Table of the runs' summaries; also written to ``out`` with a plot of their forces."""
-    from flexcage.render import compare_forces
-    from flexcage.render.sheet import label
-
-    out = Path(out)
-    out.mkdir(parents=True, exist_ok=True)
-    summaries = {name: run.summary for name, run in runs.items()}
-    table = side_by_side(summaries)
-    settle = max(run.case.output.settle for run in runs.values())
-    compare_forces(
-        dict(zip(_tails(list(runs)), (run.dataset for run in runs.values()))),
-        out / "forces.png", settle=settle,
-        note=" and ".join(dict.fromkeys(label(run.case.name) for run in runs.values())),
-    )  # fmt: skip
-    (out / "compare.txt").write_text(table + "\n", encoding="utf-8")
-    record = {name: summary.to_dict() for name, summary in summaries.items()}
-    (out / "compare.json").write_text(json.dumps(record, indent=2), encoding="utf-8")
-    return table
+MODELS = ("rigid", "flexible")
 
 
-def _tails(names: list[str]) -> list[str]:
-    """Names of folders without the folders that they all lie in."""
-    parts, common = [Path(name).parts for name in names], 0
+def compare_runs(runs: dict[str, Run], *, out: str | Path | None = None) -> Comparison:
+    """Two runs compared by their names. Into the folder ``out``, if given, go ``compare.txt`` (all
+    figures), ``compare.json``, ``forces.png`` and ``report.html``, which shows them all."""
+    first, second = runs.values()
+    found = Comparison(
+        {name: run.summary for name, run in runs.items()}, first.case.difference(second.case)
+    )
+    if out is not None:
+        _write(found, runs, Path(out))
+    return found
+
+
+def compare(first: str | Path, second: str | Path, *, out: str | Path | None = None) -> Comparison:
+    """Compare two stored runs, named by their folders, as ``compare_runs``."""
+    if Path(first).resolve() == Path(second).resolve():
+        raise InputError(
+            f"compare was given the run '{first}' twice; name two runs.", where="compare"
+        )
+    runs = [load_run(path) for path in (first, second)]
+    return compare_runs(dict(zip(short_names(first, second), runs)), out=out)
+
+
+def compare_case(
+    case: Case, *, out: str | Path | None = None, progress: Callable[..., Any] | None = None
+) -> Comparison:
+    """Run one case with a rigid and with a flexible cage, and compare them as ``compare_runs``;
+    the runs go into ``out`` too."""
+    cases = {model: case.replace("cage.model", model) for model in MODELS}
+    with told_at_once(cases.values()):
+        runs = {
+            model: simulate(each, out=Path(out) / model if out else None, progress=progress)
+            for model, each in cases.items()
+        }
+    return compare_runs(runs, out=out)
+
+
+def short_names(first: str | Path, second: str | Path) -> tuple[str, str]:
+    """Names of two folders without the folders that both lie in."""
+    parts, common = [Path(first).resolve().parts, Path(second).resolve().parts], 0
     while all(len(p) > common + 1 for p in parts) and len({p[common] for p in parts}) == 1:
         common += 1
-    return [str(Path(*p[common:])) for p in parts]
+    one, other = (str(Path(*p[common:])) for p in parts)
+    return one, other
 
 
-def compare(first: str | Path, second: str | Path, *, out: str | Path) -> str:
-    """Compare two stored runs, named by their folders."""
-    names = [str(Path(path)) for path in (first, second)]
-    return compare_runs({name: load_run(name) for name in names}, out=out)
+def _write(found: Comparison, runs: dict[str, Run], out: Path) -> None:
+    from flexcage.render import compare_forces
+    from flexcage.render.sheet import label
+    from flexcage.report.comparison_page import comparison_page
+    from flexcage.report.page import write_page
 
-
-def compare_case(case: Case, *, out: str | Path, progress: Any = None) -> str:
-    """Run one case with a rigid and with a flexible cage, and compare them."""
-    out = Path(out)
-    runs = {
-        model: simulate(case.replace("cage.model", model), out=out / model, progress=progress)
-        for model in ("rigid", "flexible")
-    }
-    return compare_runs(runs, out=out)
+    out.mkdir(parents=True, exist_ok=True)
+    replace(out / "compare.txt", (found.text(every=True, width=PAGE) + "\n").encode())
+    replace(out / "compare.json", (found.to_json() + "\n").encode())
+    cases = [run.case for run in runs.values()]
+    title = " and ".join(dict.fromkeys(case.name for case in cases))
+    picture = compare_forces(
+        {name: run.dataset for name, run in runs.items()}, out / "forces.png",
+        settle=max(case.output.settle for case in cases), note=label(title),
+    )  # fmt: skip
+    page = comparison_page(
+        found,
+        {name: description.in_words(run.case) for name, run in runs.items()},
+        {name: run.case.to_toml() for name, run in runs.items()},
+        picture,
+        title=title,
+    )
+    write_page(page, out / "report.html")

@@ -22,6 +22,7 @@ from flexcage.results.known import CONVERGENCE, KNOWN, STATISTIC, marked
 from flexcage.results.statistics import spread
 from flexcage.results.summary import Row, Summary
 from flexcage.run.folder import write_case
+from flexcage.run.foreseen import told_at_once
 from flexcage.study.convergence import Convergence, Finding
 from flexcage.study.origin import Origin, stored_origin, this_one
 from flexcage.study.work import run_in
@@ -145,7 +146,8 @@ def converge(
     out = Path(out)
     write_case(out, case)
     wanted = {level.case.hash: level for level in (*steps, Level("case", "as is", case))}
-    figures = _run_all(wanted, out / "cases", progress)
+    with told_at_once(level.case for level in wanted.values()):
+        figures = _run_all(wanted, out / "cases", progress)
     found = _compare(case, steps, figures, out / "cases")
     found.write(out)
     convergence_picture([f.record() for f in found.findings], out / "converge.png", name=case.name)

@@ -9,6 +9,7 @@ from math import floor, isfinite, log10, nan
 from pathlib import Path
 from typing import Any
 
+from flexcage.core.listing import PAGE, aligned, wrapped
 from flexcage.core.warning import RunWarning
 from flexcage.core.writing import write_text, written
 from flexcage.results.summary import Row
@@ -96,9 +97,9 @@ class Convergence:
     def __str__(self) -> str:
         return self.table()
 
-    def table(self) -> str:
+    def table(self, width: int = 0) -> str:
         """Warnings, then the outputs of the case, and how far each is from the finest level of
-        every axis."""
+        every axis; in lines of at most ``width`` characters (0: as the terminal is wide)."""
         cells = [
             [
                 "",
@@ -111,11 +112,13 @@ class Convergence:
             found = [self._at(axis, row.key) for axis in self.compared]
             figure = f"{row.text} {row.margin_text}".rstrip()
             cells.append([row.label, figure, row.shown, *(f.text if f else "-" for f in found)])
-        widths = [max(map(len, column)) for column in zip(*cells)]
-        lines = self._warning_lines()
-        lines += ["  ".join(c.ljust(w) for c, w in zip(line, widths)).rstrip() for line in cells]
-        lines += [f"failed, {where}: {reason}" for where, reason in self.failures.items()]
-        return "\n".join(lines)
+        table = aligned(cells, sides="lrl", heads=True, width=width)
+        failed = [f"failed, {where}: {reason}" for where, reason in self.failures.items()]
+        before, after = (
+            [wrapped(line, width=width) for line in lines]
+            for lines in (self._warning_lines(), failed)
+        )
+        return "\n".join([*before, table, *after])
 
     def _warning_lines(self) -> list[str]:
         """One line for every kind of warning: the runs that have it, and what the first says."""
@@ -142,7 +145,7 @@ class Convergence:
 
         folder = Path(folder)
         records = [f.record() for f in self.findings]
-        write_text(folder / "converge.txt", self.table() + "\n")
+        write_text(folder / "converge.txt", self.table(PAGE) + "\n")
         with written(folder / "converge.csv") as path:
             pd.DataFrame(records).to_csv(path, index=False)
         plain = [{k: None if v != v else v for k, v in r.items()} for r in records]

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.core.listing import wrapped
 from flexcage.results.export import frame_to_csv
 from flexcage.study.maps import MapResults
 from flexcage.study.sensitivity import KINDS, Index
@@ -63,7 +64,7 @@ def map_text(results: MapResults) -> str:
                 f"{output}, {condition}: {names or 'nothing exceeds the dummy'} "
                 f"({kind}; dummy {found[-1].value:.3g}){starts}"
             )
-    return "\n".join(lines)
+    return "\n".join(wrapped(line, rest="  ") for line in lines)
 
 
 def write_map(results: MapResults) -> list[Path]:

@@ -22,6 +22,7 @@ from flexcage.study.page_tables import (
     point_names,
     statistics_table,
 )
+from flexcage.study.words import in_words
 
 if TYPE_CHECKING:
     from flexcage.study.results import StudyResults
@@ -85,7 +86,12 @@ def _account(
 
 def _varied(results: StudyResults) -> list[str]:
     study, count = results.about, len(first_rows(results))
-    lines = [_axis_in_words(axis) for axis in study.axes]
+    paths = [path for axis in study.axes for path in axis.paths]
+
+    def named(path: str) -> str:
+        return f"{in_words(path, study.base, paths)} ({path})"
+
+    lines = [_axis_in_words(axis, named) for axis in study.axes]
     times = study.repeat.count
     many = f"{count} points" if count != 1 else "One point"
     total = f"{many}, every combination of these." if len(study.axes) > 1 else f"{many}."
@@ -98,17 +104,18 @@ def _varied(results: StudyResults) -> list[str]:
     return [*lines, total]
 
 
-def _axis_in_words(axis: Any) -> str:
+def _axis_in_words(axis: Any, named: Callable[[str], str]) -> str:
+    """What an axis varies; ``named`` gives a path in words."""
     if isinstance(axis, Grid):
-        return f"{axis.path}: {', '.join(map(str, axis.values))}."
+        return f"{named(axis.path)}: {', '.join(map(str, axis.values))}."
     if isinstance(axis, Zip):
-        parts = (f"{p}: {', '.join(map(str, values))}" for p, values in axis.values.items())
+        parts = (f"{named(p)}: {', '.join(map(str, values))}" for p, values in axis.values.items())
         return f"Together {'; '.join(parts)}."
     if _has_names(axis):
         return f"{axis.name}: {', '.join(str(point['label']) for point in axis.points)}."
     if isinstance(axis, Points):
         return f"Cases: {'; '.join(str(point) for point in axis.expand())}."
-    parts = (f"{path} from {low} to {high}" for path, (low, high) in axis.ranges.items())
+    parts = (f"{named(path)} from {low} to {high}" for path, (low, high) in axis.ranges.items())
     kind = {"lhs": "a Latin hypercube", "sobol": "a Sobol sequence"}.get(axis.type, axis.type)
     return f"{axis.count} points of {kind} in {'; '.join(parts)}."
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import isfinite, nan
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,7 @@ from flexcage.results.known import EFFORT, KNOWN, marked
 from flexcage.results.summary import SHOWN, Row, format_value
 from flexcage.study.axes import LatinHypercube, Points, Sobol, Zip
 from flexcage.study.outputs import Figure, never_negative
+from flexcage.study.words import in_words
 
 if TYPE_CHECKING:
     from flexcage.study.results import ResultRow, StudyResults
@@ -31,16 +32,32 @@ def first_rows(results: StudyResults) -> list[ResultRow]:
     return list({row.planned.number: row for row in reversed(results.rows)}.values())[::-1]
 
 
+def heads(results: StudyResults) -> dict[str, str]:
+    """In words, with their units: what the tables of a study call its axes by paths."""
+    about = results.about
+    paths = [path for axis in about.axes for path in axis.paths]
+    found = {}
+    for title in results.axes_of(results.rows[0].planned):
+        path, bracket, unit = title.partition(" [")
+        words = in_words(path, about.base, paths) if path in paths else path
+        found[title] = f"{words}{bracket}{unit}"
+    return found
+
+
 def point_names(results: StudyResults) -> list[str]:
     """What a reader calls every point: its labels and the values that vary."""
-    names = []
-    for row in first_rows(results):
-        parts = []
-        for title, value in results.axes_of(row.planned).items():
-            path, _, unit = title.partition(" [")
-            parts.append(f"{path} = {_short(value)} {unit.rstrip(']')}".rstrip())
-        names.append(", ".join(parts) or "the base case")
-    return names
+    words = heads(results)
+    return [
+        ", ".join(_set(words[t], v) for t, v in results.axes_of(row.planned).items())
+        or "the base case"
+        for row in first_rows(results)
+    ]
+
+
+def _set(head: str, value: Any) -> str:
+    """A value of an axis with that head, as "radial load = 500 N"."""
+    name, _, unit = head.partition(" [")
+    return f"{name} = {_short(value)} {unit.rstrip(']')}".rstrip()
 
 
 def _short(value: Any) -> str:
@@ -91,7 +108,9 @@ def statistics_table(results: StudyResults) -> Table:
         caption += " One run alone gives no ±."
     if len(frame) > MOST_ROWS:
         caption += f" The first {MOST_ROWS:,} of {len(frame):,} points; statistics.csv has all."
-    return Table(("point", *axes, "runs", *titles.values()), rows, caption)
+    words = heads(results)
+    head = ("point", *(words[axis] for axis in axes), "runs", *titles.values())
+    return Table(head, rows, caption)
 
 
 def _value_cell(value: Any) -> Cell:
@@ -113,22 +132,15 @@ def cases_table(results: StudyResults) -> Table:
         values = [_value_cell(v) for v in results.axes_of(r.planned).values()]
         figures = [_cell(r.figures.get(name)) for name in titles]
         rows.append([
-            number(r.planned.number), number(r.planned.repetition), *values, *figures,
-            Cell(r.state), number(r.seconds, f"{r.seconds:.1f}") if r.seconds == r.seconds
-            else Cell(""), Cell(r.reason), Cell(r.warned), Cell(r.planned.hash),
+            number(r.planned.number), number(r.planned.repetition), Cell(r.planned.hash),
+            Cell(r.state), *values, *figures,
+            number(r.seconds, f"{r.seconds:.1f}") if r.seconds == r.seconds else Cell(""),
+            Cell(r.reason), Cell(r.warned),
         ])  # fmt: skip
-    axes = results.axes_of(results.rows[0].planned)
     head = (
-        "point",
-        "repetition",
-        *axes,
-        *titles.values(),
-        "state",
-        "processor time [s]",
-        "reason",
-        "warnings",
-        "folder",
-    )
+        "point", "repetition", "folder", "state", *heads(results).values(), *titles.values(),
+        "processor time [s]", "reason", "warnings",
+    )  # fmt: skip
     return filled(Table(head, rows, f"{_share(results)} Runs lie in the folder cases."))
 
 
@@ -188,16 +200,16 @@ def abscissas(results: StudyResults) -> list[Abscissa]:
     """One for every axis, or for every range of a sampled axis; other axes make groups."""
     rows, axes = first_rows(results), results.about.axes
     values = [results.axes_of(row.planned) for row in rows]
-    sizes = [len(axis.expand()) for axis in axes]
-    place = np.array(np.unravel_index(range(len(rows)), sizes)).T if sizes else np.zeros((1, 0))
     columns = {title.partition(" [")[0]: title for title in values[0]} if values else {}
-    found = []
+    found: list[Abscissa] = []
+    words = heads(results) if rows else {}
     for k, axis in enumerate(axes):
         others = [i for i in range(len(axes)) if i != k]
-        group = [_group(axes, others, at, columns, v) for at, v in zip(place, values)]
+        group = [_group(axes, others, columns, v, words) for v in values]
         for name in _abscissa_columns(axis, columns):
             scattered = isinstance(axis, (LatinHypercube, Sobol)) and len(axis.paths) > 1
-            found.append(Abscissa(name, [v[name] for v in values], group, joined=not scattered))
+            at_points = [v[name] for v in values]
+            found.append(Abscissa(words[name], at_points, group, joined=not scattered))
     return found
 
 
@@ -210,11 +222,8 @@ def _abscissa_columns(axis: Any, columns: dict[str, str]) -> list[str]:
 
 
 def _group(
-    axes: Sequence[Any], others: list[int], at: np.ndarray, columns: dict[str, str], values: Any
-) -> str:
-    names = [c for i in others for c in _abscissa_columns(axes[i], columns)]
-    parts = []
-    for title in names:
-        path, _, unit = title.partition(" [")
-        parts.append(f"{path} = {_short(values[title])} {unit.rstrip(']')}".rstrip())
-    return ", ".join(parts)
+    axes: Sequence[Any], others: list[int], columns: dict[str, str], values: Any,
+    words: Mapping[str, str],
+) -> str:  # fmt: skip
+    titles = [title for i in others for title in _abscissa_columns(axes[i], columns)]
+    return ", ".join(_set(words[title], values[title]) for title in titles)

@@ -16,6 +16,7 @@ import numpy as np
 
 from flexcage.core import html
 from flexcage.core.errors import InputError
+from flexcage.core.listing import aligned, wrapped
 from flexcage.core.units import format_si, parse
 from flexcage.core.warning import RunWarning
 from flexcage.results.export import frame_to_csv, frame_to_parquet
@@ -99,9 +100,7 @@ class StudyResults:
         row, failure = self.stored.get(planned.hash), self.folder.failure(planned.hash)
         if row is not None:
             wanted = {k: row.figures[k] for k in self.about.outputs if k in row.figures}
-            return ResultRow(
-                planned, "done", "", row.seconds, wanted, row.warnings, row.origin
-            )  # fmt: skip
+            return ResultRow(planned, "done", "", row.seconds, wanted, row.warnings, row.origin)
         if failure is not None:
             return ResultRow(planned, "failed", failure.reason, nan, {})
         return ResultRow(planned, "open", "", nan, {})
@@ -159,8 +158,10 @@ class StudyResults:
     def report(self) -> str:
         """The table over the points: mean ± half width of every output, then warnings and what
         failed."""
-        last = [_aligned(self._lines()), *self._failures(), self.without_stress(), self.status()]
-        return "\n".join([*self.warning_lines(), *filter(None, last)])
+        lines = self._lines()
+        table = aligned(lines, sides=_sides(lines), heads=True)
+        last = filter(None, [*self._failures(), self.without_stress(), self.status()])
+        return "\n".join([*map(wrapped, self.warning_lines()), table, *map(wrapped, last)])
 
     def _repr_html_(self) -> str:
         """For notebooks: what ``report`` says."""
@@ -343,6 +344,7 @@ def _cell(planned: Planned, path: str, unit: str, base: Mapping[str, Any]) -> An
     return json.dumps(value) if isinstance(value, (list, tuple, dict)) else value
 
 
-def _aligned(rows: list[list[str]]) -> str:
-    width = [max(map(len, column)) for column in zip(*rows)]
-    return "\n".join("  ".join(f"{c:>{w}}" for c, w in zip(row, width)) for row in rows)
+def _sides(lines: list[list[str]]) -> str:
+    """Columns of numbers to the right, those that hold any words to the left."""
+    columns = list(zip(*lines[1:]))
+    return "".join("l" if any(c[:1].isalpha() for c in column) else "r" for column in columns)

@@ -13,9 +13,10 @@ from flexcage.core.errors import RunFailed
 from flexcage.core.hashing import content_hash
 from flexcage.core.progress import Silent
 from flexcage.core.stopping import unwinding
+from flexcage.run.foreseen import tell
 from flexcage.study.cluster import connect, require_packages
 from flexcage.study.folder import Failure, Folder
-from flexcage.study.outputs import beyond_summary, lacking
+from flexcage.study.outputs import beyond_summary, lacking, needs_stress
 from flexcage.study.plan import Plan, Planned, make_plan
 from flexcage.study.results import StudyResults
 from flexcage.study.spec import Study
@@ -57,6 +58,7 @@ def run_study(
         todo = _lacking(plan, folder, retry=retry)
         try:
             if todo:
+                _tell_before(plan, todo)
                 with unwinding():  # Ctrl-C ends the workers
                     _compute(plan, folder, todo, (scheduler, workers), progress)
         except BaseException:  # Ctrl-C as well: the tables show what is finished
@@ -65,6 +67,12 @@ def run_study(
         results = StudyResults(folder.path)
         results.write()
     return results
+
+
+def _tell_before(plan: Plan, todo: set[str]) -> None:
+    """Log what is foreseen of the cases to compute."""
+    cases = (plan.case(planned) for planned in plan.cases if planned.hash in todo)
+    tell(cases, stress=needs_stress(plan.study.outputs))
 
 
 def _compute(

@@ -26,6 +26,7 @@ from flexcage.core.threads import on_one_core
 from flexcage.mesh.options import MeshOptions
 from flexcage.run import Run
 from flexcage.run.folder import was_written, write_case
+from flexcage.run.foreseen import told_at_once
 from flexcage.simulate import load_run, simulate
 from flexcage.stages import cage_mesh, cage_reduction, keep_at_hand
 from flexcage.study.about import plain
@@ -78,7 +79,8 @@ def do_case(order: Order, *prepared: object) -> str:
     folder = Folder(order.folder)
     with filelock.FileLock(folder.lock(order.hash)):
         try:
-            _complete(order, folder)
+            with told_at_once(()):  # the study told it of all its cases
+                _complete(order, folder)
         except Exception as exc:
             folder.write_failure(order.hash, _failure(exc))
             return "failed"

@@ -68,6 +68,18 @@ def loads_over(load: Load, times: np.ndarray) -> np.ndarray:
     return loads.T
 
 
+def speeds_over(drive: Drive, times: np.ndarray) -> np.ndarray:
+    """Speed [rad/s] that the inner ring is driven at, at times [s], (n,), as in a run."""
+    speeds, wave = np.zeros(len(times)), np.array(_wave(drive, drive.wave_amplitude))
+    time_functions.time_function(_speed_table(drive), wave, times, speeds)
+    return speeds
+
+
+def _speed_table(drive: Drive) -> np.ndarray:
+    """Table (2, n) of time [s] and speed [rad/s], without its wave."""
+    return _table(drive.speed, drive, drive.ramp_length, drive.speeds)
+
+
 def heaviest_load(load: Load) -> float:
     """How many times as large as at the start the load on the inner ring grows, at the most."""
     largest = []
@@ -171,7 +183,7 @@ def bodies_of(
     theirs, ``area`` [m^2] that one meets the oil with; ``free``: is the inner ring free axially, in
     skew and in tilt?
     """
-    speed = _table(drive.speed, drive, drive.ramp_length, drive.speeds)
+    speed = _speed_table(drive)
     steps = 0.5 * np.diff(speed[0]) * (speed[1, 1:] + speed[1, :-1])
     rho = lubricant.density * lubricant.oil_fraction
     ro = 0.5 * cage.outside_diameter

@@ -16,7 +16,7 @@ from flexcage.contacts.ring_waves import COSINE, SINE
 from flexcage.fem.revolved import R, Revolved, X
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.ring import Raceway
-from flexcage.modes.ring import RingReduction, natural_modes, spectrum
+from flexcage.modes.ring import RingReduction, natural_modes, spectrum, strip
 from flexcage.system.bending import POINTS
 from flexcage.system.statics.rings import BentRing, SeatedRing
 from flexcage.system.swinging import Swings, swings_of
@@ -38,7 +38,7 @@ class Coordinates:
     quarter: np.ndarray  # (M,)
     shape: np.ndarray  # (M, 2)
     section: np.ndarray  # (M, 3) of the section as a whole: axially, radially, in tilt
-    chi: np.ndarray  # (M,) at the crest, of a support that is a point
+    chi: np.ndarray  # (S, M) at supports
     stiffness: np.ndarray  # (M, M)
     at_start: np.ndarray  # (M,)
 
@@ -127,12 +127,13 @@ def ring_coordinates(bent: BentRing, modes: LowModes) -> Coordinates:
     g = np.sqrt(seated.reduction.weight[harmonic])
     made = Coordinates(
         harmonic, quarter, g[:, None] * shape[:, _RACE],
-        np.repeat(modes.section, 2, axis=0)[there],
-        spectrum(harmonic, seated.support_length) * shape[:, _SEAT], np.diag(w**2), 0.0 * w,
+        np.repeat(modes.section, 2, axis=0)[there], np.empty((0, len(w))), np.diag(w**2), 0.0 * w,
     )  # fmt: skip
+    on_seat = strip(harmonic, seated.width[:, None]) * shape[:, _SEAT]
+    made = replace(made, chi=made.waves(seated.support) * on_seat)
     push = ((made.waves(bent.azimuth).T @ bent.force) * made.shape).sum(axis=1)
     if len(bent.bears):
-        push -= made.chi * (made.waves(seated.support).T @ bent.support_force)
+        push -= made.chi.T @ bent.support_force
     at_start = np.where(w > 0.0, push / np.maximum(w, 1.0) ** 2, 0.0)
     if seated.reduction.held.free:
         moved = seated.translation(bent.force, bent.bears)  # along y and z
@@ -161,7 +162,7 @@ def housing_coordinates(
     section = np.array([[1, 0, 0], [0, 1, 0], [0, 1, 0], [0, 0, -1], [0, 0, 1]])
     made = Coordinates(
         np.array([0, 1, 1, 1, 1]), np.array([COSINE, COSINE, SINE, SINE, COSINE]),
-        unit[:, None] * shape, unit[:, None] * section, np.zeros(5),
+        unit[:, None] * shape, unit[:, None] * section, np.empty((0, 5)),
         unit[:, None] * np.linalg.inv(compliance) * unit, outer / unit,
     )  # fmt: skip
     return made, unit
@@ -183,19 +184,21 @@ def swings_of_ring(
         )  # fmt: skip
     ring, azimuth = seated.reduction, 2.0 * np.pi * np.arange(POINTS) / POINTS
     n, rest = ring.harmonics, left_over(ring, modes)
-    on_seat, on_race = spectrum(n, seated.support_length), spectrum(n, ring.along)
     # race and support: the whole, less what modes have of it with the race's extrapolated weight
-    both = (on_seat * on_race)[:, None] * ring.compliance[:, _RACE, _SEAT]
-    both -= (on_seat * np.sqrt(ring.weight))[:, None] * (ring.compliance - rest)[:, _RACE, _SEAT]
-    one = np.ones(len(n))
+    both = spectrum(n, ring.along)[:, None] * ring.compliance[:, _RACE, _SEAT]
+    both -= np.sqrt(ring.weight)[:, None] * (ring.compliance - rest)[:, _RACE, _SEAT]
+    width, kind = np.unique(seated.width.round(12), return_inverse=True)
     table = [
-        ring.series(one, both[:, :, None], azimuth, slope=slope)[:, 0].T for slope in (False, True)
-    ]
-    apart = seated.support[:, None] - seated.support
-    between = ring.series(on_seat**2, rest[:, _SEAT:, _SEAT:], apart)[0, 0]
+        np.hstack([
+            ring.series(strip(n, w), both[:, :, None], azimuth, slope=slope)[:, 0].T
+            for slope in (False, True)
+        ])
+        for w in width
+    ]  # fmt: skip
     return swings_of(
         len(seated.azimuth), made.harmonic, made.quarter, made.shape, made.section, made.stiffness,
         late_of(made, relaxation), azimuth=seated.support,
-        chi=made.waves(seated.support) * made.chi, table=np.hstack(table), between=between,
+        chi=made.chi, table=np.stack(table), kind=kind,
+        between=ring.between_supports(seated.support, seated.width, rest[:, _SEAT, _SEAT]),
         holds=not seated.presses_only,
     )  # fmt: skip

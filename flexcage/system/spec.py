@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import pi
+from typing import ClassVar
 
 import numpy as np
 
 from flexcage.core.body_file import BodyFile
-from flexcage.core.spec import option, quantity
+from flexcage.core.spec import ABSENT, GIVEN, option, quantity
 from flexcage.core.units import describe
 from flexcage.geometry.bearing import Bearing
+from flexcage.geometry.other_kinds import SURROUNDINGS
+
+_WAVE = {"wave": ("sine", "triangle", "rectangle")}  # a wave's values are read with a shape
+_CHANGES = ({"ramp_to": GIVEN}, {"times": GIVEN})
 
 #: Shapes, and the share of the period that each takes from zero to its amplitude.
 WAVES = {"none": 0.0, "sine": 0.0, "triangle": 0.25, "rectangle": 0.01}
@@ -24,8 +30,10 @@ class Wave:
     want an infinite torque.
     """
 
+    elsewhere: ClassVar[Mapping[str, str]] = SURROUNDINGS
+
     wave: str = option("none", doc="shape of a wave", choices=tuple(WAVES))
-    wave_period: float = quantity("s", 0.0, doc="its period", minimum=0.0)
+    wave_period: float = quantity("s", 0.0, doc="its period", minimum=0.0, when=_WAVE)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,9 +45,14 @@ class Drive(Wave):
     (linear between points).
     """
 
-    speed: float = quantity("rpm", 6000 * 2 * pi / 60, doc="inner ring speed (negative: reversed)")
+    speed: float = quantity(
+        "rpm", 6000 * 2 * pi / 60, doc="inner ring speed (negative: reversed)",
+        when={"times": ABSENT},
+    )  # fmt: skip
     ramp_to: float | None = quantity("rpm", None, doc="speed at the end of a ramp")
-    ramp_start: float = quantity("s", 0.0, doc="start of the ramp", minimum=0.0)
+    ramp_start: float = quantity(
+        "s", 0.0, doc="start of the ramp", minimum=0.0, when={"ramp_to": GIVEN}
+    )
     ramp_time: float = quantity("s", 0.0, doc="length of the ramp", minimum=0.0)
     acceleration: float | None = quantity(
         "rad/s^2", None, doc="change of speed per second along the ramp, up or down", above=0.0
@@ -48,8 +61,12 @@ class Drive(Wave):
     speeds: tuple[float, ...] = quantity("rpm", (), doc="table: speeds")
     wave_amplitude: float = quantity("rpm", 0.0, doc="amplitude of the wave")
     kind: str = option("prescribed", doc="how it is driven", choices=("prescribed", "shaft"))
-    shaft_stiffness: float = quantity("N*m/rad", 1e4, doc="torsional stiffness", above=0.0)
-    shaft_damping: float = quantity("N*m*s/rad", 1.0, doc="torsional damping", minimum=0.0)
+    shaft_stiffness: float = quantity(
+        "N*m/rad", 1e4, doc="torsional stiffness", above=0.0, when={"kind": ("shaft",)}
+    )
+    shaft_damping: float = quantity(
+        "N*m*s/rad", 1.0, doc="torsional damping", minimum=0.0, when={"kind": ("shaft",)}
+    )
 
     @property
     def at_start(self) -> float:
@@ -80,15 +97,22 @@ class Load(Wave):
     moment_y: float = quantity("N*m", 0.0, doc="moment about y")
     moment_z: float = quantity("N*m", 0.0, doc="moment about z")
     varies: str = option(
-        "radial", doc="load that ramps, or that the table gives", choices=("radial", "axial")
+        "radial",
+        doc="load that ramps, or that the table gives",
+        choices=("radial", "axial"),
+        when=_CHANGES,
     )
     ramp_to: float | None = quantity("N", None, doc="load at the end of a ramp")
-    ramp_start: float = quantity("s", 0.0, doc="start of the ramp", minimum=0.0)
+    ramp_start: float = quantity(
+        "s", 0.0, doc="start of the ramp", minimum=0.0, when={"ramp_to": GIVEN}
+    )
     ramp_time: float = quantity("s", 0.0, doc="length of the ramp", minimum=0.0)
     times: tuple[float, ...] = quantity("s", (), doc="table: times")
     values: tuple[float, ...] = quantity("N", (), doc="table: loads")
     wave_amplitude: float = quantity("N", 0.0, doc="amplitude of the wave")
-    wave_of: str = option("radial", doc="load that has a wave", choices=("radial", "axial"))
+    wave_of: str = option(
+        "radial", doc="load that has a wave", choices=("radial", "axial"), when=_WAVE
+    )
     tilt: str = option(
         "held", doc="is the inner ring held in tilt, or free?", choices=("held", "free")
     )
@@ -109,7 +133,9 @@ class Load(Wave):
     )
     misalignment: float = quantity("mrad", 0.0, doc="tilt about z at which the ring is held")
     gravity: float = quantity("m/s^2", 9.80665, doc="acceleration of gravity", minimum=0.0)
-    gravity_direction: float = quantity("deg", 0.0, doc="azimuth of gravity")
+    gravity_direction: float = quantity(
+        "deg", 0.0, doc="azimuth of gravity", when={"gravity": GIVEN}
+    )
     shaft_mass: float = quantity("kg", 0.0, doc="mass that moves with the inner ring", minimum=0.0)
 
     @property
@@ -177,6 +203,9 @@ class Load(Wave):
         return (value, self.axial) if self.varies == "radial" else (self.radial, value)
 
 
+_ELASTIC = ("bushing", "contact")
+
+
 @dataclass(frozen=True, kw_only=True)
 class Mount(BodyFile):
     """How the outer ring is held: fixed, or in a housing, in y and z.
@@ -187,15 +216,27 @@ class Mount(BodyFile):
     elastic housing in x, y, z and both tilts (``system.seat``), in a run with its mass.
     """
 
+    elsewhere: ClassVar[Mapping[str, str]] = SURROUNDINGS
+
     kind: str = option("fixed", doc="outer ring support", choices=("fixed", "bushing", "contact"))
-    mass: float = quantity("kg", 0.0, doc="housing mass that moves with the ring", minimum=0.0)
-    stiffness: float = quantity("N/m", 2e8, doc="stiffness of the housing", above=0.0)
-    damping: float = quantity("N*s/m", 2e3, doc="damping of the housing", minimum=0.0)
-    clearance: float = quantity("um", 10e-6, doc="radial clearance of the bore", minimum=0.0)
+    mass: float = quantity(
+        "kg", 0.0, doc="housing mass that moves with the ring", minimum=0.0,
+        when=({"body": GIVEN}, {"kind": _ELASTIC}),
+    )  # fmt: skip
+    stiffness: float = quantity(
+        "N/m", 2e8, doc="stiffness of the housing", above=0.0, when={"kind": _ELASTIC}
+    )
+    damping: float = quantity(
+        "N*s/m", 2e3, doc="damping of the housing", minimum=0.0, when={"kind": _ELASTIC}
+    )
+    clearance: float = quantity(
+        "um", 10e-6, doc="radial clearance of the bore", minimum=0.0, when={"kind": ("contact",)}
+    )
     seat: str = option(
         "",
         doc="set of nodes of body_nodes at the ring's seat; by default all nodes of the body that "
         "have coordinates",
+        when={"body": GIVEN},
         legacy="",
     )
     seat_tie: str = option(
@@ -203,6 +244,7 @@ class Mount(BodyFile):
         doc="'rigid': the seat's nodes move as the ring does (RBE2); 'average': the ring moves as "
         "they do on average (RBE3)",
         choices=("rigid", "average"),
+        when={"body": GIVEN},
         legacy="rigid",
     )
 
@@ -280,7 +322,10 @@ class StartOptions:
     push: float = quantity(
         "mm/s", 0.0, doc="speed of the cage centre at the start", minimum=0.0, maximum=MOST_PUSH
     )
-    seed: int = option(0, doc="seed of the push's azimuth, uniform over the circle", minimum=0)
+    seed: int = option(
+        0, doc="seed of the push's azimuth, uniform over the circle", minimum=0,
+        when={"push": GIVEN},
+    )  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -61,7 +61,8 @@ class Swings(NamedTuple):
     late: np.ndarray  # (M,) time tau by which its spring damps it
     azimuth: np.ndarray  # (S,) of supports
     chi: np.ndarray  # (S, M) by which coordinates displace the ring outwards at supports
-    table: np.ndarray  # (POINTS, 4) B of an element so far round the ring from a support
+    table: np.ndarray  # (K, POINTS, 4) B of an element so far round the ring from a support
+    kind: np.ndarray  # (S,) of the support in ``table``: supports as wide as it
     between: np.ndarray  # (S, S) D
     holds: int  # 1 if supports pull as well
     crest: np.ndarray  # (N + 1, 2, 4) of cosine and sine: displacement and rate at both ports
@@ -181,7 +182,7 @@ def _press(q, s, a, rings, swings):
             x = (q[PER_ELEMENT * i + 2] - swings.azimuth[k]) * STEP
             whole = np.floor(x)
             c = swings.beside[k, i]
-            look_up(swings.table, int(whole) & (POINTS - 1), x - whole, c)
+            look_up(swings.table[swings.kind[k]], int(whole) & (POINTS - 1), x - whole, c)
             f = force_at(OUTER_RACE, i, Z)
             entered += c[B1] * s[f] + c[B2] * s[f + 1]
         swings.room[k] = entered
@@ -322,7 +323,8 @@ def swings_of(
     elements: int, harmonic: np.ndarray, quarter: np.ndarray, shape: np.ndarray,
     section: np.ndarray, stiffness: np.ndarray, late: np.ndarray, *,
     azimuth: np.ndarray | None = None, chi: np.ndarray | None = None,
-    table: np.ndarray | None = None, between: np.ndarray | None = None, holds: bool = False,
+    table: np.ndarray | None = None, kind: np.ndarray | None = None,
+    between: np.ndarray | None = None, holds: bool = False,
 ) -> Swings:  # fmt: skip
     """Coordinates and, if any are given, supports, with room to work."""
     count, held = len(harmonic), 0 if azimuth is None else len(azimuth)
@@ -332,7 +334,8 @@ def swings_of(
         harmonic, quarter, st(shape), st(section), st(stiffness), late,
         z(0) if azimuth is None else azimuth,
         z((held, count)) if chi is None else st(chi),
-        z((POINTS, 4)) if table is None else st(table),
+        z((1, POINTS, 4)) if table is None else st(table),
+        z(held, np.int64) if kind is None else kind.astype(np.int64),
         z((held, held)) if between is None else st(between),
         int(holds), z((waves, 2, 4)), z((waves, 2, 2)), carried, borne, z((3, 3)),
         z((elements, waves, 2)),

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import zipfile
-import zlib
 from importlib import resources
 
 import numpy as np
 
+from flexcage.core.arrays import UNREADABLE, read_arrays
 from flexcage.core.errors import EnvironmentLacks
 
 
@@ -18,11 +17,11 @@ def stored_arrays(name: str) -> dict[str, np.ndarray]:
     """
     source = resources.files("flexcage.verification") / "data" / name
     try:
-        with source.open("rb") as stream, np.load(stream) as stored:
-            return dict(stored)
+        with source.open("rb") as stream:
+            return read_arrays(stream)
     except FileNotFoundError as exc:
         raise _lacks(f"'{source}' is missing", name) from exc
-    except (OSError, EOFError, ValueError, RuntimeError, zipfile.BadZipFile, zlib.error) as exc:
+    except (OSError, *UNREADABLE) as exc:
         raise _lacks(f"'{source}' cannot be read: it is cut short or damaged", name) from exc
 
 

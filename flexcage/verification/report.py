@@ -9,6 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from flexcage._version import __version__
+from flexcage.core.listing import aligned
+from flexcage.core.writing import write_text
 from flexcage.verification.known_answer import Outcome, Row
 
 HEADER = ("quantity", "reference", "flexcage", "difference", "tolerance", "verdict")
@@ -34,15 +36,7 @@ def table(outcomes: Sequence[Outcome]) -> str:
         lines += [(outcome.case.name, *_cells(row)) for row in outcome.rows]
         if _without_rows(outcome):
             lines.append((outcome.case.name, _without_rows(outcome), "", "", "", "", "FAIL"))
-    widths = [max(len(line[k]) for line in lines) for k in range(7)]
-    left = (0, 1, 6)
-    text = [
-        "  ".join(
-            c.ljust(w) if k in left else c.rjust(w) for k, (c, w) in enumerate(zip(x, widths))
-        )
-        for x in lines
-    ]
-    return "\n".join([line.rstrip() for line in text] + ["", count(outcomes)])
+    return "\n".join([aligned(lines, sides="llrrrrl", heads=True), "", count(outcomes)])
 
 
 def count(outcomes: Sequence[Outcome]) -> str:
@@ -116,4 +110,4 @@ FORMATS = {".json": as_json, ".md": markdown}
 
 def write(outcomes: Sequence[Outcome], path: Path) -> None:
     """Write the outcomes in the format of the file's ending, one of ``FORMATS``."""
-    path.write_text(FORMATS[path.suffix](outcomes), encoding="utf-8")
+    write_text(path, FORMATS[path.suffix](outcomes))

@@ -92,7 +92,16 @@ def test_a_text_that_no_key_has_is_one_sentence(capsys):
     assert main(["variables", "pocket_forc_"]) == 2
     assert "pocket_force" in capsys.readouterr().err
     assert main(["figures", "cage_sped"]) == 2
-    assert "the nearest known one is 'cage_speed'" in capsys.readouterr().err
+    assert "the nearest name is 'cage_speed'" in capsys.readouterr().err
+    assert main(["figures", "spall"]) == 2
+    said = capsys.readouterr().err
+    assert said == "flexcage: No figure has the text 'spall'; 'flexcage figures' lists all.\n"
+
+
+def test_the_keys_of_a_material_name_those_that_there_are(capsys):
+    assert main(["keys", "material"]) == 0
+    shown = capsys.readouterr().out
+    assert all(name in shown for name in ("GCr15", "PEEK", "PA46-GF30 conditioned"))
 
 
 @pytest.mark.parametrize(

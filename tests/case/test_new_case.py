@@ -12,8 +12,10 @@ from flexcage.bearings.ball.inside import filling_angle
 from flexcage.bearings.ball.ratings import static_factor
 from flexcage.case import catalogue, load_case
 from flexcage.case.new import new_case
+from flexcage.cli import main
 from flexcage.core.errors import InputError
 from flexcage.geometry.inside import Outline
+from flexcage.geometry.other_kinds import kind_of
 from flexcage.simulate import simulate
 
 # designation: number and diameter [mm] of elements, pitch diameter [mm], where they are published
@@ -271,6 +273,68 @@ def test_marks_after_a_designation_name_seals_and_clearance(designation, clearan
     assert case.bearing.radial_clearance == pytest.approx(clearance, abs=1e-12)
     assert [note.split(",")[0] for note in entry.outline.left_out] == notes
     assert all(f"# {note}" in made.text for note in entry.outline.left_out)
+
+
+@pytest.mark.parametrize(
+    ("designation", "same", "notes"),
+    [
+        ("NU 210 ECP", "NU210", ["EC: a reinforced inside of SKF", "P: a cage of glass fibre"]),
+        ("NU 210 ECP/C3", "NU210 C3", ["EC: a reinforced inside", "P: a cage of glass fibre"]),
+        ("7208 BEP", "7208B", ["E: a reinforced inside", "P: a cage of glass fibre"]),
+        ("7208 BECBP", "7208B", ["E: a rein", "CB: normal clearance of a matched set", "P: a c"]),
+        ("7010 CD/P4A", "7010C", ["D: a reinforced inside", "P4A: a class of tolerances, left"]),
+        ("6205-2Z/C3", "6205 C3", ["2Z: shields, left out: flexcage has none."]),
+        ("6205 TN9", "6205", ["TN9: a cage of glass fibre"]),
+        ("6205 M P5", "6205", ["M: a machined brass cage", "P5: a class of tolerances"]),
+    ],
+)
+def test_makers_suffixes_are_read_and_each_is_explained(designation, same, notes):
+    found, plain = (catalogue.find(name).outline for name in (designation, same))
+    assert (found.boundary, found.clearance) == (plain.boundary, plain.clearance)
+    assert len(found.left_out) == len(notes)
+    assert all(text.startswith(note) for text, note in zip(found.left_out, notes))
+
+
+@pytest.mark.parametrize(
+    ("designation", "kind"),
+    [
+        ("30205", "a tapered roller bearing"),
+        ("32008 X/Q", "a tapered roller bearing"),
+        ("51105", "a thrust ball bearing"),
+        ("22208 E", "a spherical roller bearing"),
+        ("29412", "a spherical roller thrust bearing"),
+        ("81105 TN", "a cylindrical roller thrust bearing"),
+        ("NK 20/16", "a needle roller bearing"),
+        ("1205 ETN9", "a self-aligning ball bearing"),
+        ("2205", "a self-aligning ball bearing"),
+        ("3205 A", "a double row angular contact ball bearing"),
+        ("4205", "a double row deep groove ball bearing"),
+        ("QJ 208 MA", "a four-point contact ball bearing"),
+        ("NCF 2210", "a full complement cylindrical roller bearing"),
+        ("NN 3010", "a double row cylindrical roller bearing"),
+        ("7210 DB", "a set of bearings back to back (DB)"),
+        ("7010 CD/P4A DT", "a set of bearings in tandem (DT)"),
+    ],
+)
+def test_bearings_of_other_kinds_are_declined_by_kind(designation, kind):
+    with pytest.raises(InputError) as caught:
+        catalogue.find(designation)
+    assert str(caught.value).startswith(f"'{designation}' is {kind}; flexcage has ")
+
+
+@pytest.mark.parametrize("designation", sorted(catalogue.designations()))
+def test_no_bearing_of_the_catalogue_is_of_another_kind(designation):
+    assert kind_of(designation) == ""
+
+
+def test_a_series_without_ratings_is_not_taken_for_another_design():
+    with pytest.raises(InputError, match="of the design NJ, which flexcage has, but the catalogue"):
+        catalogue.find("NJ2310 ECP")
+
+
+def test_a_type_that_there_is_not_is_declined_before_its_dimensions(capsys):
+    assert main(["new", "6205", "--type", "tapered_roller"]) == 2
+    assert "of tapered roller bearings flexcage has none" in capsys.readouterr().err
 
 
 def test_angular_contact_bearings_have_no_groups_of_clearance():

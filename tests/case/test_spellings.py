@@ -38,10 +38,10 @@ SPELLINGS: dict[str, tuple[tuple[float | str, str], ...]] = {
         (DEG, "1 deg/s | 1 °/s | 60 deg/min"),
         (
             AMBIGUOUS,
-            "1 1/s | 1 s^-1 | 1 s-1 | 1 s⁻¹ | 1/s | 1 Hz | 1 kHz | 1 1/h | 1 1/ms | 1 hertz | 1 Bq",
+            "1 1/s | 1 s^-1 | 1 s-1 | 1 s⁻¹ | 1/s | 1 Hz | 1 kHz | 1 1/h | 1 1/ms | 1 hertz",
         ),
         (OTHER, "1 m/s | 1 rad | 1 rpm/s | 1 deg | 1 min | 1 rad^2/s | 1 %"),
-        (UNKNOWN, "6 000 rpm | 1 u/mn | 1_000 rpm | 1 100*rpm"),
+        (UNKNOWN, "6 000 rpm | 1 u/mn | 1_000 rpm | 1 100*rpm | 6000 rpm% | 1 Bq | 1 baud"),
     ),
     "angular acceleration": (
         (1.0, "1 rad/s^2 | 1 rad/s2 | 1 rad/s² | 1 rad s^-2 | 1 rad/s/s"),
@@ -80,6 +80,7 @@ SPELLINGS: dict[str, tuple[tuple[float | str, str], ...]] = {
         (0.112984829027617, "1 lbf*in"),
         ("leave the angle out", "1 N*m/rad | 1 N*m*rad"),
         (OTHER, "1 N/m | 1 nm | 1 N | 1 lb*ft | 1 kg*m"),
+        ("write 'Nm' or 'Nm\\*s'", "1 Nms"),
     ),
     "torsional stiffness": (
         (1.0, "1 N*m/rad | 1 Nm/rad | 1 N*m*rad^-1 | 1 N*mm/mrad | 1e-3 kN*m/rad"),
@@ -88,6 +89,7 @@ SPELLINGS: dict[str, tuple[tuple[float | str, str], ...]] = {
         (0.5 / pi, "1 N*m/turn"),
         ("name the angle", "1 N*m | 1 N*mm | 1 J"),
         (OTHER, "1 N/m | 1 N*m*s/rad"),
+        ("write 'Nm/rad' or 'Nm\\*s/rad', whichever is meant", "2000 Nms/rad"),
     ),
     "torsional damping": (
         (1.0, "1 N*m*s/rad | 1 N m s/rad | 1 Nm*s/rad | 1 N*m/(rad/s)"),
@@ -95,7 +97,8 @@ SPELLINGS: dict[str, tuple[tuple[float | str, str], ...]] = {
         (1e-3, "1 N*mm*s/rad"),
         (1.0 / RPM, "1 N*m/rpm"),
         ("name the angle", "1 N*m*s | 1 N*m/Hz"),
-        (OTHER, "1 N*m/rad | 1 Nms/rad"),
+        (OTHER, "1 N*m/rad"),
+        ("write 'Nm/rad' or 'Nm\\*s/rad'", "1 Nms/rad"),
     ),
     "length": (
         (1e-3, "1 mm | 1000 um | 1000 µm | 1000 μm | 1e6 nm | 0.1 cm | 1e-3 m"),
@@ -109,7 +112,9 @@ SPELLINGS: dict[str, tuple[tuple[float | str, str], ...]] = {
         (1.0, "1 s | 1 sec | 1000 ms | 1e6 us | 1e6 µs"),
         (60.0, "1 min"),
         (3600.0, "1 h"),
-        ("leave the angle out", "1 s/rad | 1 rad*s | 1 1/rpm | 1 rev/rpm*rad"),
+        ("leave the angle out", "1 s/rad | 1 rad*s | 1 1/rpm"),
+        ("angle cancels", "1 rev/rpm"),
+        (UNKNOWN, "1 shake | 1 fortnight"),
         (OTHER, "1 Hz | 1 rev | 1 m"),
     ),
     "speed": (
@@ -128,7 +133,9 @@ SPELLINGS: dict[str, tuple[tuple[float | str, str], ...]] = {
     ),
     "force": (
         (1.0, "1 N | 1e-3 kN | 1e-6 MN | 1 kg*m/s^2 | 1 N"),
-        (9.80665, "1 kgf"),
+        (9.80665, "1 kgf | 1 kp"),
+        (10.0, "1 daN"),
+        ("is 'kN' meant", "1 kn | 1 KN"),
         (4.4482216152605, "1 lbf"),
         (OTHER, "1 kg | 1 lb | 1 N*m | 1 N/mm"),
         (UNKNOWN, "1 kNn | 1 000 N"),
@@ -136,6 +143,7 @@ SPELLINGS: dict[str, tuple[tuple[float | str, str], ...]] = {
     "stiffness": (
         (1.0, "1 N/m | 1e-3 N/mm | 1e-6 N/um | 1e-6 N/µm | 1e-3 kN/m | 1 N*m^-1"),
         (OTHER, "1 N*m | 1 N*m/rad | 1 N/m^2 | 1 Nm | 1 lb/in"),
+        ("is 'N/mm' meant", "200 N/Mm"),
     ),
     "stiffness per area": (
         (1e9, "1e9 N/m^3 | 1 N/mm^3 | 1 MPa/mm | 1e3 N/cm^3 | 1 kPa/um"),
@@ -165,7 +173,8 @@ SPELLINGS: dict[str, tuple[tuple[float | str, str], ...]] = {
         (6894.757293168, "1 psi"),
         (1e-3, "1 mPa"),
         (OTHER, "1 N | 1 N/mm | 1 mPas | 1 Pa*s"),
-        (UNKNOWN, "1 MPA"),
+        ("is 'MPa' or 'mPa' meant", "1 MPA"),
+        ("write 'MPa' or 'MPa\\*s'", "320 MPas"),
     ),
     "pressure coefficient": (
         (2e-8, "20 1/GPa | 20 GPa^-1 | 20 GPa⁻¹ | 20/GPa | 2e-8 1/Pa | 0.02 mm^2/N"),
@@ -184,12 +193,15 @@ SPELLINGS: dict[str, tuple[tuple[float | str, str], ...]] = {
         (
             393.15,
             "120 degC | 120 °C | 120°C | 120 celsius | 120 degree_Celsius | 393.15 K | 393.15 "
-            "kelvin | 248 degF | 248 °F | 707.67 degR",
+            "kelvin | 248 degF | 248 °F | 120 ℃ | 120℃ | 248 ℉",
         ),
         (263.15, "-10 degC | 14 degF"),
         (273.15, "0 degC"),
         ("not a difference", "1 delta_degC | 1 Δ°C"),
-        (OTHER, "120 C | 120 deg | 120 °"),
+        (OTHER, "120 deg | 120 °"),
+        ("is 'degC' meant", "120 C"),
+        (UNKNOWN, "96 deg Re | 707.67 degR | 707.67 °R"),
+        ("below absolute zero, -273.15 degC", "-300 degC | -1 K | -500 °F"),
     ),
     "unbalance": (
         (1e-6, "1 g*mm | 1 g mm | 1 g·mm | 1000 mg*mm | 0.1 g*cm | 1e-6 kg*m"),

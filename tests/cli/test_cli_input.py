@@ -126,6 +126,35 @@ def test_compare_offers_only_what_it_can(elsewhere, capsys):
     assert "--force" in text and "--resume" not in text
 
 
+def test_runs_are_compared_under_runs_and_again_without_force(elsewhere, capsys, monkeypatch):
+    """Where the folder holds a comparison alone; anything else stays."""
+    import flexcage.study.compare as room
+
+    told = []
+
+    class Found:
+        def text(self, *, every):
+            return "every figure" if every else "ten figures"
+
+    monkeypatch.setattr(room, "compare", lambda *runs, out: told.append((runs, out)) or Found())
+    for name in ("one", "two"):
+        (elsewhere / name / "cases" / "7" / "results.zarr").mkdir(parents=True)
+    command = ["compare", "one/cases/7", "two/cases/7"]
+    out = Path("runs/one-cases-7-two-cases-7-compare")
+    assert cli.main(command) == 0
+    assert told == [((Path("one/cases/7"), Path("two/cases/7")), out)]
+    assert "ten figures" in capsys.readouterr().out
+    (out / "mine.txt").write_text("precious")
+    assert cli.main(command) == 2, "no comparison of ours"
+    (out / "compare.json").write_text("{}")
+    assert cli.main([*command, "--all"]) == 0
+    assert "every figure" in capsys.readouterr().out
+    (out / "rigid").mkdir()
+    assert cli.main(command) == 2 and (out / "mine.txt").read_text() == "precious"
+    assert cli.main([*command, "--set", "load.radial=1 N"]) == 2
+    assert "--set belongs to a case" in capsys.readouterr().err
+
+
 def test_a_run_is_not_compared_with_itself(elsewhere, capsys):
     assert cli.main(["compare", "runs/a", "./runs/a"]) == 2
     assert "was given 'runs/a' twice; name two runs" in sentence(capsys)

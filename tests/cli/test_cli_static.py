@@ -8,6 +8,7 @@ import pytest
 
 from flexcage import cli
 from flexcage.case import load_static
+from flexcage.core.listing import PAGE
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 BALLS, ROLLERS = str(EXAMPLES / "c7010_static.toml"), str(EXAMPLES / "n1013.toml")
@@ -23,7 +24,8 @@ def test_table_of_balls(capsys):
     assert "1.80914" in text and "life L10r" in text and "h at this speed" in text
 
 
-def test_files_of_a_static_solution(tmp_path, capsys):
+def test_files_of_a_static_solution(tmp_path, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", str(PAGE))
     out = tmp_path / "static"
     assert cli.main(["static", ROLLERS, "--set", "load.radial=800 N", "-o", str(out)]) == 0
     assert sorted(p.name for p in out.iterdir()) == [

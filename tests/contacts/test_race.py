@@ -119,8 +119,10 @@ def spalled(build_parts):
 
 @pytest.mark.parametrize("which", [0, 1])
 def test_roller_axis_follows_a_circle_about_the_edge_of_a_spall(spalled, which):
-    """Where the roller is free, found from two circles (race and roller) and the edge's corner."""
+    """Where the roller is free, found from two circles (race and roller) and the edge's corner; of
+    an edge that is felt at a line."""
     side = spalled(depth=300e-6)[which]
+    side = side._replace(spall=np.array([*side.spall[:4], 1e-9]))
     R, sign, half = side.radius, side.sign, 0.6e-3 / side.radius
     edge = R * np.array([np.cos(half), np.sin(half)])
     flat = side._replace(drop=np.zeros_like(side.drop))

@@ -103,16 +103,20 @@ def test_on_the_other_side_the_spot_is_not_met(spotted):
 
 def test_a_roller_on_its_flat_stands_lower_by_the_cut_cap(spotted):
     """At the middle of a flat of length c the cap c^2/(8 r) is missing; on the inner race, which is
-    convex, the roller stands on the flat's middle, in the outer one on its edges."""
+    convex, the roller stands on the flat's middle (of an edge that is felt at a line), in the outer
+    one on its edges: the mean of (l - x)^2 from -w to w is l^2 - l w + w^2/3."""
     size = 0.6e-3
     inner, outer = spotted(size=size, kind="flat")
+    inner = inner._replace(spot=np.array([*inner.spot[:4], 1e-9]))
+    half, wide = 0.5 * size, outer.spot[4] * RW
     cap = size**2 / (8.0 * RW)
-    for side, sunk in ((inner, cap), (outer, (0.5 * size) ** 2 * (1 / RW - 1 / outer.radius) / 2)):
+    mean = (half**2 - half * wide + wide**2 / 3.0) * (1 / RW - 1 / outer.radius) / 2
+    for side, sunk in ((inner, cap), (outer, mean)):
         P, axis, angle = state(side, 0.0, depth=20e-6)
         lower, *_ = state(side, 0.0, depth=20e-6 - sunk)
         on_flat = race(side, P, axis=axis, spot=angle)[1][NORMAL]
         assert on_flat == pytest.approx(race(side, lower, axis=axis)[1][NORMAL], rel=1e-9)
-    assert (0.5 * size) ** 2 * (1 / RW - 1 / outer.radius) / 2 < cap
+    assert mean < cap
 
 
 def test_a_narrow_spot_loads_the_other_end(spotted):

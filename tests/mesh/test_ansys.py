@@ -69,3 +69,70 @@ def test_bricks_and_no_archive(n1013, tmp_path):
     other.write_text("no archive\n")
     with pytest.raises(InputError, match="other.cdb"):
         read_mesh(other)
+
+
+def with_lines(path, *lines):
+    """The archive with commands before its end."""
+    path.write_text(path.read_text().replace("FINISH", "\n".join([*lines, "FINISH"])))
+    return path
+
+
+@pytest.mark.parametrize(
+    "command",
+    ["NGEN,2,100,1,10", "esym,,100,1", "NUMMRG,NODE", "N,7,1.,2.,3.", "/INPUT,more,cdb",
+     "NDELE,5", "CM,end_px,NODE", "CMDELE,LAND_INNER"],
+)  # fmt: skip
+def test_commands_that_change_the_mesh_are_refused_by_name(n1013, tmp_path, command):
+    path = with_lines(write_cdb(n1013(fineness="coarse"), tmp_path / "cage.cdb"), command)
+    name = command.split(",")[0].upper()
+    with pytest.raises(InputError, match=rf"line \d+: the command {name} is not followed"):
+        read_mesh(path, unit="mm")
+
+
+def test_commands_that_change_nothing_are_passed_over(n1013, tmp_path):
+    mesh = n1013(fineness="coarse")
+    path = with_lines(
+        write_cdb(mesh, tmp_path / "cage.cdb"),
+        "MPTEMP,R5.0, 1, 1,  0.0", "MP,EX,1,1e5", "R,1,1.", "D,1,UX,0", "CM,other,ELEM", "/GO",
+        "N,R5.3,LOC,       -1,", "EN,R5.5,ATTR,-1",
+    )  # fmt: skip
+    assert len(read_mesh(path, unit="mm").tets) == len(mesh.tets)
+
+
+def test_a_component_with_nodes_that_are_not_there_is_refused(n1013, tmp_path):
+    mesh = n1013(fineness="coarse")
+    path = write_cdb(mesh, tmp_path / "cage.cdb", leave_out="end+x")
+    with_lines(path, *component("END_PX", [*np.unique(mesh.groups["end+x"]) + 1, 9001]))
+    with pytest.raises(InputError, match=r"'end\+x' has node 9001, which is not in it"):
+        read_mesh(path, unit="mm")
+
+
+def test_elements_of_unknown_type_are_refused(n1013, tmp_path):
+    path = write_cdb(n1013(fineness="coarse"), tmp_path / "cage.cdb")
+    path.write_text(path.read_text().replace("ET,1,285", "ET,1,96"))
+    with pytest.raises(InputError, match="elements of type 96 that are no tetrahedra"):
+        read_mesh(path, unit="mm")
+
+
+def test_a_triangle_in_the_corner_of_two_faces_is_left_to_the_flatter(tmp_path):
+    """All its nodes are in both components, since two of its edges are on the edge of both."""
+    from flexcage.mesh.files.ansys import _boundary, _part_corners
+
+    x, y = np.meshgrid([0.0, 1.0, 2.0], [0.0, 1.0, 2.0])
+    top = np.column_stack([x.ravel(), y.ravel(), np.full(9, 1.0)])
+    points = np.vstack([top, top - [0.0, 0.0, 1.0]])
+    import scipy.spatial
+
+    tets = scipy.spatial.Delaunay(points + 1e-6 * np.random.default_rng(0).random((18, 3)))
+    boundary = _boundary(tets.simplices.astype(int))
+    wall = np.abs(points[:, 0] - 2.0) < 1e-9
+    corner = [2, 5, 8]  # of the top, on the edge to the wall
+    groups = {
+        "end+x": (points[boundary][:, :, 2] == 1.0).all(axis=1),
+        "land_outer": wall[boundary].all(axis=1),
+    }
+    groups["land_outer"] |= np.isin(boundary, [1, *corner]).all(axis=1)
+    shared = groups["end+x"] & groups["land_outer"]
+    assert shared.any()
+    _part_corners(points, boundary, groups)
+    assert groups["end+x"][shared].all() and not groups["land_outer"][shared].any()

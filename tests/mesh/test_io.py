@@ -202,7 +202,10 @@ DECKS = {
     "too few nodes": ("*ELEMENT, TYPE=C3D10\n1, 1, 2, 3, 4", "other than 10 nodes"),
     "a node too many": ("*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 9", "node 9, which is not in it"),
     "two parts": ("*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n" + NODES, "numbers nodes twice"),
-    "moved": ("*INSTANCE, NAME=A, PART=B\n1., 0., 0.", "moves an instance"),
+    "two instances": (
+        "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n*INSTANCE, NAME=A\n*END INSTANCE\n*INSTANCE, NAME=B\n",
+        "stands in 2 instances",
+    ),
     "unknown set": ("*SURFACE, NAME=end+x\nnone, S1", "set 'none' is not in it"),
     "unknown face": (
         "*ELEMENT, TYPE=C3D4, ELSET=all\n1, 1, 2, 3, 4\n*SURFACE, NAME=end+x\nall, S9",
@@ -223,16 +226,16 @@ def test_deck_that_cannot_be_used_is_one_sentence(name, tmp_path):
 
 
 def test_surface_without_faces_is_where_solids_end(tmp_path):
-    from flexcage.mesh.abaqus import read_inp
+    from flexcage.mesh.files.abaqus import read_inp
 
     (tmp_path / "two.inp").write_text(
         NODES + "5, 1, 1, 1\n*ELEMENT, TYPE=C3D4, ELSET=all\n1, 1, 2, 3, 4\n2, 2, 3, 4, 5\n"
         "*SURFACE, TYPE=ELEMENT, NAME=skin\nall\n*SURFACE, NAME=one\n2, S4\n"
     )
     mesh = read_inp(tmp_path / "two.inp")
-    corners = [frozenset(t) for t in mesh.cells[1].data.tolist()]
+    corners = [frozenset(t) for t in mesh.surfaces["skin"].tolist()]
     assert len(set(corners)) == 6 and frozenset([1, 2, 3]) not in corners
-    assert mesh.cells[2].data.tolist() == [[3, 4, 1]]
+    assert mesh.surfaces["one"].tolist() == [[3, 4, 1]]
 
 
 def test_bricks_among_tetrahedra_are_refused(n1013, tmp_path):

@@ -151,6 +151,17 @@ def test_a_reduction_takes_its_body_from_the_file(basis, solver, tmp_path):
     assert made[0].fit is not None and made[2].fit is None
 
 
+def test_a_body_whose_file_is_gone_is_not_the_cages_own(basis, solver, tmp_path):
+    """With the cage's own basis on disk, from before."""
+    spec = ModesSpec()
+    reduce_cage(cage_mesh(), cage=CAGE, defects=(), spec=spec)
+    for name in ("body", "body_nodes"):
+        gone = dataclasses.replace(spec, **{name: str(tmp_path / "gone.npz")})
+        with pytest.raises(InputError, match=r"There is no file '.*gone\.npz'") as caught:
+            reduce_cage(cage_mesh(), cage=CAGE, defects=(), spec=gone)
+        assert caught.value.where == f"modes.{name}"
+
+
 # --- what does not fit ---------------------------------------------------------------------------
 
 
@@ -185,7 +196,7 @@ def test_shapes_in_another_unit_than_the_matrices(solver, basis):
     free = dataclasses.replace(basis, residual=None)
     body = dataclasses.replace(body_of(free, solver.model), kind=(), source="cage.npz")
     wrong = dataclasses.replace(body, shapes=1.1 * body.shapes)
-    refused(wrong, solver, "the mass of coordinate .* but its shape on the cage's mesh makes")
+    refused(wrong, solver, "the mass of mode .* but its shape on the cage's mesh makes")
 
 
 def test_nodes_of_another_mesh(solver, foreign):

@@ -182,6 +182,33 @@ def test_a_substructure_in_the_layout_of_calculix(model, tmp_path):
         check_free(read, where="body")
 
 
+def test_rows_of_calculix_that_nobody_condensed_are_refused(model, tmp_path):
+    """Version 2.20 writes K_rr of a bar's retained corners as assembled (to its 13 digits); the
+    condensed one has forces between any two nodes and passes."""
+    held = (3 * CORNERS[:, None] + np.arange(3)).ravel()
+    assembled = full(model).stiffness[np.ix_(held, held)]
+    condensed = craig_bampton(model, CORNERS, 0).stiffness
+    deck = ["*NODE"] + [
+        f"{i + 1},{x:.15g},{y:.15g},{z:.15g}" for i, (x, y, z) in enumerate(model.nodes)
+    ]
+    (tmp_path / "box.inp").write_text("\n".join([*deck, ""]))
+    for stiffness, refused in ((assembled, True), (condensed, False)):
+        lines = abaqus_element(stiffness, stiffness, CORNERS + 1).splitlines()
+        lines = [
+            "**",
+            "** GENERATION OF SUBSTRUCTURE",
+            *lines[1 : lines.index("*MATRIX,TYPE=MASS")],
+        ]
+        (tmp_path / "box.mtx").write_text("\n".join([*lines, ""]))
+        if refused:
+            with pytest.raises(
+                InputError, match="28 pairs of the 8 nodes .* CalculiX wrote the rows"
+            ):
+                read_body(tmp_path / "box.mtx", nodes=tmp_path / "box.inp")
+        else:
+            assert read_body(tmp_path / "box.mtx", nodes=tmp_path / "box.inp").size == 24
+
+
 @pytest.mark.parametrize("units", SYSTEMS)
 def test_units_keep_mass_and_frequencies(body, tmp_path, units):
     """A body in other units, written by hand: one length, mass and time each."""
@@ -384,7 +411,7 @@ def test_a_reader_that_is_not_installed_is_named(body, tmp_path, monkeypatch):
     for name in [n for n in sys.modules if n == "pyyeti" or n.startswith("pyyeti.")]:
         monkeypatch.setitem(sys.modules, name, None)
     monkeypatch.setitem(sys.modules, "pyyeti", None)
-    with pytest.raises(EnvironmentLacks, match=re.escape('pip install "flexcage[bodies]"')):
+    with pytest.raises(EnvironmentLacks, match=re.escape("pip install '.[bodies]'")):
         read_body(path)
 
 

@@ -15,7 +15,7 @@ from test_pictures import N1013, run
 from flexcage.cages.window.defects import CrossbeamDefect
 from flexcage.cages.window.places import WINDOW_PLACES
 from flexcage.core.errors import InputError
-from flexcage.render.album import Scene, StressPictures, draw_album
+from flexcage.render.album import Scene, StressPictures, draw_album, picture_names
 from flexcage.render.look import Look
 
 __all__ = ["run"]  # a fixture
@@ -67,6 +67,22 @@ def scene(run, ring, peak: int) -> Scene:
         loads=np.tile([0.0, 1e3, 0.0], (n, 1)), settle=0.3, stress=pictures,
         defects=[CrossbeamDefect(crossbeam=5, displacement=1e-4)],
     )  # fmt: skip
+
+
+@pytest.mark.parametrize("stressed", [True, False])
+def test_only_the_pictures_that_are_named(run, ring, drawn, tmp_path, stressed):
+    whole = scene(run, ring, 0)
+    whole = whole if stressed else replace(whole, stress=None)
+    draw_album(whole, tmp_path, only=["orbit", "mesh"], format="svg")
+    assert {name: given["path"].name for name, given in drawn.items()} == {
+        "mesh_picture": "mesh.png", "orbit": "orbit.svg"
+    }  # fmt: skip
+    draw_album(whole, tmp_path, format="pdf")
+    files = {given["path"].name for given in drawn.values()}
+    resolved = "spectra_picture" in drawn
+    curves = {"orbit", "histories", *(["spectra"] if resolved else [])}
+    names = picture_names(flexible=stressed, resolved=resolved)
+    assert files == {f"{name}.{'pdf' if name in curves else 'png'}" for name in names}
 
 
 def test_cameras_do_not_follow_the_peak(run, ring, drawn, tmp_path):

@@ -251,6 +251,34 @@ def test_curves_need_no_window(run, tmp_path):
     check(render.compare_forces({"rigid": run, "flexible": run}, tmp_path / "c.png"))
 
 
+def test_an_orbit_outside_the_clearance_says_why(run, tmp_path, monkeypatch):
+    """It goes round at 50 um, about the outer ring's centre."""
+    shown = []
+    monkeypatch.setattr(sheet, "save", lambda figure, path: shown.append(figure))
+    flexible = run.assign(modal_coordinates=("time", np.zeros(run.sizes["time"])))
+    for ds, clearance in ((run, 60e-6), (flexible, 60e-6), (run, 40e-6), (flexible, 40e-6)):
+        render.orbit(ds, tmp_path / "o.png", clearance=clearance)
+    said = [[t.get_text() for t in f.texts if "beyond the circle" in t.get_text()] for f in shown]
+    assert said[:2] == [[], []]
+    (rigid,), (bent,) = said[2:]
+    assert rigid.startswith("The orbit reaches 10 µm beyond") and "guiding ring moves" in rigid
+    assert bent.startswith("The orbit reaches 10 µm beyond") and "flexible, and bends" in bent
+
+
+def test_forces_compared_show_the_whole_range_of_both_runs(run, tmp_path, monkeypatch):
+    """Whichever comes first, no axis ends at the smaller run's peak."""
+    shown = []
+    monkeypatch.setattr(sheet, "save", lambda figure, path: shown.append(figure))
+    weak = run.assign(pocket_force=0.1 * run["pocket_force"])
+    for runs in ({"a": run, "b": weak}, {"a": weak, "b": run}):
+        render.compare_forces(runs, tmp_path / "c.png", settle=0.0)
+    largest = float(run["pocket_force"].max())
+    for figure in shown:
+        history, often, pockets = figure.axes
+        assert often.get_xlim()[1] >= largest
+        assert history.get_ylim()[1] >= largest and pockets.get_ylim()[1] >= largest
+
+
 def test_the_highest_place_is_that_of_the_settled_part(run, tmp_path, monkeypatch):
     shown = []
     monkeypatch.setattr(sheet, "save", lambda figure, path: shown.append(figure))

@@ -227,6 +227,23 @@ def test_a_page_of_one_run_shows_no_chart_twice():
     assert sorted(shown) == ["mesh", "my_own", "spectra", "stress_envelope"]
 
 
+@pytest.mark.parametrize(
+    ("names", "first"),
+    [
+        (["bearing", "mesh", "spectra", "stress_peak"], "stress_peak"),
+        (["bearing", "mesh", "spectra"], "bearing"),
+        ([], None),
+    ],
+)
+def test_the_first_screen_has_a_picture_and_spectra_the_whole_width(names, first):
+    page = run_page(account(images=[Path(f"{name}.png") for name in names]))
+    begin = page.sections[0].blocks[0]
+    assert (begin.image.path.stem if begin.kind == "beside" else None) == first
+    images = [i for s in page.sections for b in s.blocks if b.kind == "gallery" for i in b.images]
+    assert [i.path.stem for i in images if i.wide] == ["spectra"] * bool(names)
+    assert first not in [i.path.stem for i in images], "not twice"
+
+
 def test_what_histories_and_orbit_show_as_pictures_the_page_shows_as_charts():
     ds = dataset()
     ds["inner_speed"] = ds["inner_speed"] * np.linspace(0.5, 1.0, ds.sizes["time"])

@@ -20,6 +20,7 @@ from flexcage.study.page_tables import abscissas, outputs, point_names
 from flexcage.study.plan import make_plan
 from flexcage.study.results import StudyResults
 from flexcage.study.spec import Repeat, Study
+from flexcage.study.words import in_words
 
 CASE = {"bearing": {"preset": "N1013"}, "cage": {"model": "rigid"}, "load": {"radial": "1 kN"}}
 
@@ -53,15 +54,15 @@ SPEEDS = Grid("drive.speed", ["3000 rpm", "6000 rpm", "9000 rpm"])
 
 def test_the_page_of_a_study(tmp_path):
     results = study_folder(
-        tmp_path / "s", LOADS, SPEEDS, repeat=Repeat(count=2), name="<i>mine</i>", fails=(3,),
+        tmp_path / "s", LOADS, SPEEDS, repeat=Repeat(count=2), name="<i>mine", fails=(3,),
         open_=(11,), warned=lambda k: (EXCEEDED,) * (k < 2),
     )  # fmt: skip
     path = results.page(tmp_path / "page.html")
     text = path.read_text("utf-8")
     assert path.stat().st_size < 15e6
-    assert "&lt;i&gt;mine&lt;/i&gt;: report of a study" in text and "<i>mine" not in text
+    assert "&lt;i&gt;mine: report of a study" in text and "<i>mine" not in text
     assert "12 cases: 10 done, 1 failed, 1 open" in text
-    assert "Point 1, repetition 1 (load.radial = 500 N, drive.speed = 6000 rpm) failed" in text
+    assert "Point 1, repetition 1 (radial load = 500 N, drive speed = 6000 rpm) failed" in text
     assert "1 of 12 cases are not computed yet" in text
     assert (
         "2 of 10 cases (energy_audit; the first is point 0, repetition 0): The energy audit is "
@@ -109,11 +110,11 @@ def test_means_and_intervals_are_those_of_the_statistics(tmp_path):
 def test_axes_become_abscissas_and_the_others_groups(tmp_path):
     results = study_folder(tmp_path / "s", LOADS, SPEEDS)
     load, speed = abscissas(results)
-    assert (load.title, speed.title) == ("load.radial [N]", "drive.speed [rpm]")
+    assert (load.title, speed.title) == ("radial load [N]", "drive speed [rpm]")
     assert list(load.values) == [500.0] * 3 + [1000.0] * 3
-    assert list(load.group) == [f"drive.speed = {v} rpm" for v in (3000, 6000, 9000)] * 2
-    assert list(speed.group) == ["load.radial = 500 N"] * 3 + ["load.radial = 1000 N"] * 3
-    assert point_names(results)[5] == "load.radial = 1000 N, drive.speed = 9000 rpm"
+    assert list(load.group) == [f"drive speed = {v} rpm" for v in (3000, 6000, 9000)] * 2
+    assert list(speed.group) == ["radial load = 500 N"] * 3 + ["radial load = 1000 N"] * 3
+    assert point_names(results)[5] == "radial load = 1000 N, drive speed = 9000 rpm"
 
 
 def test_labels_pairs_and_samples_are_axes_as_well(tmp_path):
@@ -121,14 +122,52 @@ def test_labels_pairs_and_samples_are_axes_as_well(tmp_path):
     (axis,) = abscissas(study_folder(tmp_path / "a", labels))
     assert list(axis.values) == ["slow", "base"] and set(axis.group) == {""}
     pairs = Zip({"load.radial": ["1 N", "2 N"], "drive.speed": ["1 rpm", "2 rpm"]})
-    assert [a.name for a in abscissas(study_folder(tmp_path / "b", pairs))] == ["load.radial"]
+    assert [a.name for a in abscissas(study_folder(tmp_path / "b", pairs))] == ["radial load"]
     box = LatinHypercube(
         ranges={"load.radial": ("1 N", "9 N"), "drive.speed": ("1 rpm", "9 rpm")}, count=4
     )
     found = abscissas(study_folder(tmp_path / "c", box))
-    assert [a.name for a in found] == ["load.radial", "drive.speed"]
+    assert [a.name for a in found] == ["radial load", "drive speed"]
     assert not any(a.joined for a in found), "lines between scattered points mean nothing"
     assert study_folder(tmp_path / "d", box).page(tmp_path / "d.html").is_file()
+
+
+@pytest.mark.parametrize(
+    ("path", "varied", "words"),
+    [
+        ("defects.0.displacement", (), "crossbeam 5 displacement"),
+        ("defects.0.displacement", ("defects.0.crossbeam",), "crossbeam displacement"),
+        ("defects.0.crossbeam", (), "number of the crossbeam"),
+        ("defects.1.clearance", (), "pocket 3 worn pocket clearance"),
+        ("defects.2.clearance", (), "defects 2 clearance"),
+        ("load.axial", (), "axial load"),
+        ("cage.model", (), "cage model"),
+        ("bearing.radial_clearance", (), "bearing radial clearance"),
+        ("contacts.pocket.friction.kinetic", (), "contacts pocket friction kinetic"),
+    ],
+)
+def test_a_path_in_words(path, varied, words):
+    defects = [
+        {"type": "crossbeam", "crossbeam": 5, "displacement": "0.2 mm"},
+        {"type": "worn_pocket", "pocket": 3, "clearance": "0.1 mm"},
+    ]
+    assert in_words(path, {"defects": defects}, varied) == words
+
+
+def test_a_varied_defect_is_named_in_words_throughout(tmp_path, monkeypatch):
+    monkeypatch.setitem(CASE, "defects", [{"type": "crossbeam", "crossbeam": 5,
+                                           "displacement": "0.1 mm"}])  # fmt: skip
+    sizes = Grid("defects.0.displacement", ["0.1 mm", "0.2 mm"])
+    results = study_folder(tmp_path / "s", sizes)
+    assert point_names(results)[1] == "crossbeam 5 displacement = 0.2 mm"
+    (axis,) = abscissas(results)
+    assert axis.title == "crossbeam 5 displacement [mm]"
+    text = results.page(tmp_path / "page.html").read_text("utf-8")
+    heads = re.findall(r"<button type=.button.>(.*?)</button>", text)
+    assert heads.count("crossbeam 5 displacement [mm]") == 2, "of points and of cases"
+    assert "crossbeam 5 displacement (defects.0.displacement): 0.1 mm, 0.2 mm." in text
+    assert not [head for head in heads if "defects" in head]
+    assert heads.index("folder") < heads.index("state") < len(heads) - 1
 
 
 def test_a_study_without_axes_or_results(tmp_path):
@@ -175,9 +214,17 @@ def test_mistakes_get_one_sentence(name, here, capsys):
 def test_the_command_writes_into_the_folder_unless_told(here, capsys):
     assert cli.main(["report", "study"]) == 0
     assert "written: study/report.html (" in capsys.readouterr().out
-    assert cli.main(["report", "study"]) == 2
+    assert cli.main(["report", "study"]) == 0, "a page of ours is written anew"
     assert cli.main(["report", "study", "--force", "-o", "there.html"]) == 0
     assert "report of a study" in (here / "there.html").read_text("utf-8")
+
+
+def test_a_link_in_the_pages_place_is_replaced_and_not_followed(here, capsys):
+    (here / "study" / "report.html").symlink_to(here / "there.html")
+    assert cli.main(["report", "study"]) == 0
+    assert (here / "there.html").read_text() == "precious"
+    page = here / "study" / "report.html"
+    assert not page.is_symlink() and "report of a study" in page.read_text("utf-8")
 
 
 def test_points_are_chosen_among_those_with_a_run(tmp_path):

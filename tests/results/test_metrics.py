@@ -12,7 +12,7 @@ from flexcage.core.errors import InputError
 from flexcage.results import audit, metrics
 from flexcage.results.figures import summarise
 from flexcage.results.spectra import amplitude_spectrum
-from flexcage.results.summary import Row, Summary, side_by_side
+from flexcage.results.summary import Row, Summary
 
 RPM = np.pi / 30
 
@@ -171,6 +171,20 @@ def test_energy_audit_of_the_cage(known_run, bearing, leak, of_drive, of_cage, v
     assert summarise(ds, bearing)["energy_audit"] == verdict
 
 
+def test_what_a_cage_loses_at_its_lands_is_of_the_cage(known_run):
+    """The land takes 19 mJ and pockets 1: an imbalance of 0.4 mJ is 2 % of what the cage exchanges,
+    and 40 % of what pockets alone take. One of 2 mJ is too large for both."""
+    ds = known_run.assign_coords(channel=["land_friction", "pocket_friction"])
+    ds["work"][:, 0] = -0.19 * ds["time"].values
+    ds["work"][:, 1] = -0.01 * ds["time"].values
+    ds["energy"][:, 0] = ds["work"].sum("channel").values + 4e-3 * ds["time"].values
+    ds["energy"][:, 1] = 0.0
+    check = audit.energy_audit(ds)
+    assert check.of_cage == pytest.approx((1.0 - audit.BEGUN) * 0.02, abs=1e-3) and check.passed
+    ds["energy"][:, 0] += 16e-3 * ds["time"].values
+    assert audit.energy_audit(ds).verdict == "EXCEEDED"
+
+
 @pytest.mark.parametrize(
     ("leaks", "of_cage", "verdict"),
     [((0.1, 0.3), 0.0, "passed"), ((0.6, 0.9), 0.4, "EXCEEDED"), ((0.1, 0.9), 0.1, "EXCEEDED")],
@@ -294,12 +308,6 @@ def test_summary_prints_and_comes_back(known_run, bearing, tmp_path):
     assert back.row("pocket_force_mean") == summary.row("pocket_force_mean")
     assert back["cage_slip_ratio"] == pytest.approx(0.02, abs=1e-6)
     assert [p.name for p in summary.write(tmp_path)] == ["summary.txt", "summary.json"]
-    both = side_by_side({"rigid": summary, "flexible": back})
-    assert both.splitlines()[0].split() == ["rigid", "flexible"]
-    assert [line for line in both.splitlines()[1:] if line and not line.startswith(" ")] == [
-        section.title for section in summary.sections
-    ]
-    assert re.search(r"Pocket force, mean +(\S+ ± \S+) +\1 +N$", both, re.MULTILINE)
     names = [row.label for row in summary]
     assert len(set(names)) == len(names), "tables without notes tell all rows apart"
 
@@ -334,6 +342,6 @@ def test_summary_sees_a_run_that_has_not_settled(known_run, bearing):
     ds["cage_omega"][:, 0] *= np.linspace(1.0, 1.1, ds.sizes["time"])
     ds["pocket_force"][:, 7, 1] = 3.0
     assert summarise(ds, bearing)["drift"] == "cage speed"
-    assert summarise(ds.assign(cage_omega=known_run["cage_omega"]), bearing)["drift"] == "nothing"
+    assert summarise(ds.assign(cage_omega=known_run["cage_omega"]), bearing)["drift"] == "none"
     short = summarise(ds.isel(time=slice(500)), bearing)
     assert short["drift"] is None and short.row("cage_speed").margin is None

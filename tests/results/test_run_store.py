@@ -274,9 +274,9 @@ def test_a_damaged_index_gets_a_sentence(tmp_path):
 
 
 def test_files_hold_many_blocks_and_are_taken_up_in_turn(tmp_path, monkeypatch):
-    from flexcage.results import store as module
+    from flexcage.results import metadata
 
-    monkeypatch.setattr(module, "SLOTS", 2)
+    monkeypatch.setattr(metadata, "SLOTS", 2)
     path = tmp_path / "r.zarr"
     store = make(path)
     for k in range(store.layout.n_blocks):
@@ -382,7 +382,7 @@ def test_a_checkpoint_is_kept_to_the_last_bit(tmp_path):
 
 @pytest.mark.parametrize("step", ["array", "checkpoint", "commit"])
 def test_a_full_disk_keeps_what_was_committed(tmp_path, monkeypatch, step):
-    from flexcage.results import files
+    from flexcage.results import commit as commits
     from flexcage.results import store as module
 
     path = tmp_path / "r.zarr"
@@ -395,14 +395,14 @@ def test_a_full_disk_keeps_what_was_committed(tmp_path, monkeypatch, step):
     if step == "array":
         monkeypatch.setattr(module.Chunks, "write", full)
     else:
-        real = files.replace
+        real = module.replace
 
         def some(target, content):
             if step in target.name:
                 full()
             real(target, content)
 
-        monkeypatch.setattr(files, "replace", some)
+        monkeypatch.setattr(commits, "replace", some)
         monkeypatch.setattr(module, "replace", some)
     with pytest.raises(RunFailed, match="disk is full; the first 25 samples are kept"):
         store.write_block(1, *block(store, 1), {"i": 1})

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from math import radians
+from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,17 +13,21 @@ import xarray as xr
 
 from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
-from flexcage.results import metrics
+from flexcage.results import metrics, spectra
 from flexcage.results.features import cage_motion_features
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.spectra import (
     SIGNALS,
+    amplitude_spectrum,
     bearing_frequencies,
     envelope,
+    envelope_spectrum,
+    own_frequencies,
     resolves,
     run_frequencies,
     run_resolution,
     spectral_density,
+    vibration_figures,
 )
 
 RPM = np.pi / 30.0
@@ -124,6 +131,63 @@ def test_the_envelope_of_a_swelling_tone():
     both = envelope(pair, (2e3, 6e3))
     assert both.dims == ("time", "axis2")
     np.testing.assert_allclose(both.isel(axis2=1), 2.0 * found, rtol=1e-9)
+
+
+def blows(rate: float, count: int = 40_000) -> np.ndarray:
+    """Bursts of a 4 kHz ringing, ``rate`` of them a second."""
+    since = (np.arange(count) / RATE) % (1.0 / rate)
+    return np.exp(-since / 1e-3) * np.sin(2 * np.pi * 4e3 * since)
+
+
+def test_blows_are_lines_of_the_envelopes_spectrum():
+    """The ringing hides them in the signal's own spectrum; of a swelling tone a line reads what it
+    swells by."""
+    x = signal(blows(107.0), "m/s^2")
+    found = envelope_spectrum(x, (2e3, 8e3))
+    assert found.attrs["units"] == "m/s^2" and found.dims == ("frequency",)
+    for multiple in (1, 2, 3):
+        near = found.sel(frequency=slice(107.0 * multiple - 40, 107.0 * multiple + 40))
+        assert float(near.idxmax("frequency")) == pytest.approx(107.0 * multiple, abs=0.5)
+    own = amplitude_spectrum(x).sel(frequency=slice(60.0, 150.0))
+    assert float(own.max()) < 0.1 * float(found.sel(frequency=slice(60.0, 150.0)).max())
+    t = np.arange(40_000) / RATE
+    tone = signal(3.0 * (1.0 + 0.5 * np.cos(2 * np.pi * 90 * t)) * np.sin(2 * np.pi * 4e3 * t))
+    line = envelope_spectrum(tone, (2e3, 6e3)).sel(frequency=90.0, method="nearest")
+    assert float(line) == pytest.approx(1.5, rel=0.01)
+
+
+def test_figures_of_vibrations():
+    t = np.arange(40_000) / RATE
+    lines = {"BPFO": 107.0, "BPFI": 163.0, "FTF": 0.6}
+    sine = vibration_figures(signal(7.0 + 2.0 * np.sin(2 * np.pi * 500 * t)), lines, (2e3, 8e3))
+    assert sine["rms"] == pytest.approx(np.sqrt(2.0)) and sine["crest"] == pytest.approx(np.sqrt(2))
+    assert sine["kurtosis"] == pytest.approx(1.5)
+    noise = np.random.default_rng(1).normal(size=len(t))
+    quiet = vibration_figures(signal(0.05 * noise), lines, (2e3, 8e3))
+    assert quiet["kurtosis"] == pytest.approx(3.0, abs=0.1)
+    struck = vibration_figures(signal(blows(107.0) + 0.05 * noise), lines, (2e3, 8e3))
+    assert struck["kurtosis"] > 6.0 and struck["crest"] > quiet["crest"]
+    assert struck["envelope at BPFO"] > 10.0 * struck["envelope at BPFI"]
+    assert struck["envelope at BPFO"] > 10.0 * quiet["envelope at BPFO"]
+    assert np.isnan(struck["envelope at FTF"])  # slower than the record can tell
+
+
+def test_the_call_of_the_page(known_run, bearing):
+    """As printed, on a run whose outer ring is struck at its BPFO."""
+    page = Path(spectra.__file__).with_name("README.md").read_text("utf-8")
+    code = next(c for c in re.findall(r"```python\n(.*?)```", page, re.S) if "envelope_spec" in c)
+    lines = own_frequencies(known_run, bearing)
+    t = known_run["time_hf"].values
+    since = t % (1.0 / lines["BPFO"])
+    struck = np.exp(-since / 1e-4) * np.sin(2 * np.pi * 9e3 * since)
+    ds = known_run.copy()
+    ds["outer_acceleration"] = ds["outer_acceleration"] + struck[:, None]
+    names: dict = {"run": SimpleNamespace(dataset=ds, numbers=bearing)}
+    exec(code, names)
+    spectrum, figures = names["spectrum"], names["figures"]
+    top = float(spectrum.sel(frequency=slice(200.0, 1400.0)).idxmax("frequency"))
+    assert top == pytest.approx(lines["BPFO"], abs=float(spectrum["frequency"][1]))
+    assert figures["envelope at BPFO"] > 5.0 * figures["envelope at BPFI"]
 
 
 @pytest.mark.parametrize("band", [(0.0, 5e3), (2e3, 20e3), (5e3, 2e3), (float("nan"), 5e3)])

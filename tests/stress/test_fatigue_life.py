@@ -185,5 +185,5 @@ def test_without_pylife_one_sentence_says_what_to_install(monkeypatch):
     monkeypatch.setattr(
         importlib.util, "find_spec", lambda name, *a: None if name == "pylife" else find(name, *a)
     )
-    with pytest.raises(EnvironmentLacks, match=r'pip install "flexcage\[fatigue\]"'):
+    with pytest.raises(EnvironmentLacks, match=r"pip install '\.\[fatigue\]'"):
         count(np.zeros(3))

@@ -140,4 +140,4 @@ def test_simulate_computes_stress_when_it_is_asked_for(plain):
     run = simulate(short_case(**MOVED), stress=False)
     assert "stress_peak" not in run.summary_at_end
     assert run.summary["stress_peak"] == pytest.approx(plain.summary["stress_peak"], rel=2e-5)
-    assert run.warnings == plain.warnings
+    assert run.warnings == tuple(w for w in plain.warnings if w.key != "coarse_mesh")

@@ -337,4 +337,4 @@ def test_a_missing_package_is_named(tmp_path, capsys, monkeypatch):
 
     monkeypatch.setattr(cluster, "find_spec", lambda name: None)
     assert cli.main(["study", "run", str(study_file(tmp_path, LOAD)), "-o", str(tmp_path)]) == 1
-    assert 'pip install "flexcage[study]"' in capsys.readouterr().err
+    assert "sources:  pip install '.[study]'" in capsys.readouterr().err

@@ -118,11 +118,50 @@ def test_supports_bear_the_load_and_push_only():
     assert not force[np.cos(place) < 0.0].any()
 
 
-def test_points_pull_as_well():
-    (outer,) = bent("N1013", outer=on("points", (60.0, -60.0, 180.0))).rings
+def test_points_pull_as_well_and_do_not_clamp():
+    """One force for a point, about which the ring pivots, however wide the load is spread."""
+    found = []
+    for arc in (2.0, 10.0):
+        (outer,) = bent("N1013", outer=on("points", (60.0, -60.0, 180.0), arc)).rings
+        place, force = outer.seated.support, outer.support_force
+        assert len(force) == 3
+        assert force[np.cos(place) < 0.0].sum() < 0.0
+        assert force @ np.cos(place) == pytest.approx(5e3, abs=1.0)
+        found.append(force)
+    assert found[1] == pytest.approx(found[0], abs=0.01 * found[0].max())
+
+
+def test_a_wider_arc_bears_at_its_edges():
+    """The ring rests where the next width begins to bear, so displacements fall evenly with the
+    width, without a jump (of 15 % between 8 and 10 degrees where an arc was one pad, then two);
+    three times as many strips move nothing by 0.5 %."""
+    width = np.arange(6.0, 15.0)
+    down = [bent("N1013", outer=on("arcs", (60.0, -60.0), arc)).displacement[1] for arc in width]
+    step = -np.diff(down)
+    assert (step > 0.0).all()
+    assert np.abs(np.diff(step)).max() < 0.15 * step.mean()
+
+
+@pytest.mark.parametrize("arc", (2.0, 15.0))
+def test_strips_of_an_arc_have_converged(arc, monkeypatch):
+    one = bent("N1013", outer=on("arcs", (60.0, -60.0), arc))
+    monkeypatch.setattr("flexcage.system.statics.rings._STRIPS", 24)
+    other = bent("N1013", outer=on("arcs", (60.0, -60.0), arc))
+    assert len(other.rings[0].support_force) == 3 * len(one.rings[0].support_force)
+    assert one.displacement[1] == pytest.approx(other.displacement[1], rel=0.005)
+    change = np.abs(one.elements.force - other.elements.force).max()
+    assert change < 0.01 * one.largest_force
+
+
+@pytest.mark.parametrize(
+    ("azimuths", "arc"), (((77.0, 100.0, 172.0, 188.0, 195.0, 280.0), 6.0), ((88.0, -88.0), 15.0))
+)
+def test_arcs_that_wedge_a_ring_hold_it(azimuths, arc):
+    """The load lies between supports almost a half turn apart, which press many times as hard."""
+    (outer,) = bent("N1013", outer=on("arcs", azimuths, arc)).rings
     place, force = outer.seated.support, outer.support_force
-    assert force[np.cos(place) < 0.0].sum() < 0.0
-    assert force @ np.cos(place) == pytest.approx(5e3, abs=1.0)
+    assert [force @ np.cos(place), force @ np.sin(place)] == pytest.approx([5e3, 0.0], abs=1.0)
+    assert (force >= 0.0).all() and force.sum() > 2.0 * 5e3
 
 
 def test_two_support_arcs_make_two_peaks():

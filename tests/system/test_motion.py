@@ -66,7 +66,7 @@ def test_spin_of_one_roller(bearing_of, lubricant, slip, width, pocket, start, e
     mass, axial, _ = model.bodies.element
     ri, ro, rw = model.inner.radius, model.outer.radius, 4e-3
     # radial balance of a roller on two springs c d^(10/9), with its centrifugal force
-    c = laws.iso_line_stiffness(7.3e-3)
+    c = laws.iso_line_stiffness(7.3e-3, 206e9 / (1.0 - 0.3**2))
     grid = np.linspace(ri + rw - 4e-6, ri + rw, 400_001)
     inner = c * np.clip(ri + rw - grid, 0, None) ** (10 / 9)
     outer = c * np.clip(grid - (ro - rw), 0, None) ** (10 / 9)

@@ -16,7 +16,7 @@ BDF = {"solver.method": "bdf"}
 
 
 def audited(*tables) -> tuple[float, float]:
-    """Worst imbalance over the drive's work, and over what pockets and modes dissipate."""
+    """Worst imbalance over the drive's work, and over what pockets, lands and modes dissipate."""
     ds = simulate(n1013(SHORT, *tables)).dataset
     audit = energy_audit(ds)
     assert audit.channels["drive"] > 0.1 and float(ds["pocket_force"].max()) > 5.0

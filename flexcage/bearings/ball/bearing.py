@@ -18,7 +18,7 @@ import numpy as np
 from flexcage.bearings.ball import checks, ratings
 from flexcage.bearings.ball.spot import BallSpot
 from flexcage.cages.machined.cage import BallCage
-from flexcage.core.spec import option, quantity
+from flexcage.core.spec import GIVEN, option, quantity
 from flexcage.core.units import typeset
 from flexcage.geometry.bearing import (
     Bearing,
@@ -33,6 +33,7 @@ from flexcage.geometry.checks import Finding
 from flexcage.geometry.film import Film, Oil, both_races, point_film, rolling_entrainment
 from flexcage.geometry.hertz import PointContact
 from flexcage.geometry.materials import MATERIALS, Material
+from flexcage.geometry.other_kinds import SURROUNDINGS
 from flexcage.geometry.spall import BY_RACE, Spall
 
 _EDGE = 0.1  # of half a cage's width: what its end touches a groove with (assumption)
@@ -51,7 +52,8 @@ class BallBearing(Bearing):
     element: ClassVar[str] = "ball"
     family: ClassVar[str] = "ball"
     places: ClassVar[tuple[str, ...]] = ("race", "pocket")
-    elsewhere: ClassVar[Mapping[str, str]] = BY_RACE
+    sliced: ClassVar[tuple[str, ...]] = ("race",)
+    elsewhere: ClassVar[Mapping[str, str]] = {**BY_RACE, **SURROUNDINGS}
     carries_axial_load: ClassVar[bool] = True
     one_sided: ClassVar[bool] = False  # are there shoulders for one direction of load alone?
 
@@ -73,17 +75,23 @@ class BallBearing(Bearing):
     inner_waviness: float = quantity(
         "um", 0.0, doc="amplitude of inner race waviness", minimum=0.0, legacy=0.0
     )
-    inner_waviness_order: int = option(2, doc="waves per turn, inner race", minimum=1, legacy=2)
-    inner_waviness_azimuth: float = quantity(
-        "deg", 0.0, doc="azimuth of a crest on the inner ring", legacy=0.0
+    inner_waviness_order: int = option(
+        2, doc="waves per turn, inner race", minimum=1, legacy=2, when={"inner_waviness": GIVEN}
     )
+    inner_waviness_azimuth: float = quantity(
+        "deg", 0.0, doc="azimuth of a crest on the inner ring", legacy=0.0,
+        when={"inner_waviness": GIVEN},
+    )  # fmt: skip
     outer_waviness: float = quantity(
         "um", 0.0, doc="amplitude of outer race waviness", minimum=0.0, legacy=0.0
     )
-    outer_waviness_order: int = option(2, doc="waves per turn, outer race", minimum=1, legacy=2)
-    outer_waviness_azimuth: float = quantity(
-        "deg", 0.0, doc="azimuth of a crest on the outer ring", legacy=0.0
+    outer_waviness_order: int = option(
+        2, doc="waves per turn, outer race", minimum=1, legacy=2, when={"outer_waviness": GIVEN}
     )
+    outer_waviness_azimuth: float = quantity(
+        "deg", 0.0, doc="azimuth of a crest on the outer ring", legacy=0.0,
+        when={"outer_waviness": GIVEN},
+    )  # fmt: skip
     inner_spall: Spall = option(
         Spall(), doc="a pit of the inner race, which turns with its ring", legacy=Spall()
     )

@@ -19,7 +19,7 @@ from flexcage.contacts.groove import Groove
 from flexcage.contacts.land import NONE, LandData, with_other
 from flexcage.contacts.race import race_work
 from flexcage.contacts.spec import Contacts, LandSpec, Lubricant
-from flexcage.contacts.uneven import is_uneven, uneven_race
+from flexcage.contacts.uneven import is_uneven, spread, uneven_race
 from flexcage.geometry.hertz import PointContact
 from flexcage.geometry.spot import marked
 from flexcage.system.bodies import bodies_of, land_data, land_on_stop, unbalanced
@@ -68,6 +68,7 @@ def groove_of(
     wave, spall = uneven_race(bearing, ring, bearing.race_radius(ring), contact.rolling)
     sides = getattr(bearing, f"{ring}_spall").sides(radius)
     long = float(contact.semi_axes(1.0)[0])
+    felt = spread(contact.rolling, bearing.material.plane_strain_modulus)
     return Groove(
         side=side,
         axial=axial,
@@ -84,7 +85,7 @@ def groove_of(
         spall=spall,
         sides=np.sort(side * np.array(sides)),
         reach=long * contact.stiffness ** (1.0 / 3.0),
-        spot=bearing.ball_spot.dimensions(0.5 * bearing.ball_diameter, contact.rolling),
+        spot=bearing.ball_spot.dimensions(0.5 * bearing.ball_diameter, contact.rolling, felt),
         uneven=is_uneven(wave, spall),
     )
 

@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from flexcage.core.spec import option, quantity
+from flexcage.core.spec import GIVEN, option, quantity
 from flexcage.geometry.spot import find_in_spots, spotted_in_words
 
 if TYPE_CHECKING:
     from flexcage.bearings.ball.bearing import BallBearing
+
+_IS = {"size": GIVEN}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,28 +28,32 @@ class BallSpot:
     """
 
     size: float = quantity("mm", 0.0, doc="length and width; 0: no spot", minimum=0.0)
-    kind: str = option("pit", doc="what it is", choices=("pit", "flat"))
-    ball: int = option(0, doc="ball that has it", minimum=0)
+    kind: str = option("pit", doc="what it is", choices=("pit", "flat"), when=_IS)
+    ball: int = option(0, doc="ball that has it", minimum=0, when=_IS)
     others: tuple[int, ...] = option(
-        (), doc="further balls with a spot alike", minimum=0, legacy=()
+        (), doc="further balls with a spot alike", minimum=0, legacy=(), when=_IS
     )
-    depth: float = quantity("um", 100e-6, doc="depth of a pit", above=0.0)
+    depth: float = quantity(
+        "um", 100e-6, doc="depth of a pit", above=0.0, when={**_IS, "kind": ("pit",)}
+    )
     angle: float = quantity(
-        "deg", 0.0, doc="where it is at the start: from outwards towards the sense of the orbit"
-    )
-    tilt: float = quantity("deg", 0.0, doc="likewise, from that plane towards +x")
+        "deg", 0.0, doc="where it is at the start: from outwards towards the sense of the orbit",
+        when=_IS,
+    )  # fmt: skip
+    tilt: float = quantity("deg", 0.0, doc="likewise, from that plane towards +x", when=_IS)
 
     @property
     def balls(self) -> tuple[int, ...]:
         """Numbers of the balls that have one."""
         return tuple(sorted({self.ball, *self.others})) if self.size else ()
 
-    def dimensions(self, radius: float, effective: float) -> np.ndarray:
-        """Half of its size, its depth, and the drop over the square of a length [m], on a race with
-        which a ball of a radius has the ``effective`` one [m]."""
+    def dimensions(self, radius: float, effective: float, felt: float) -> np.ndarray:
+        """Half of its size, its depth, the drop over the square of a length [m], on a race with
+        which a ball of a radius has the ``effective`` one [m], and half of the width ``felt`` [m]
+        over which its edges are felt."""
         half = 0.5 * self.size
         depth = half**2 / (2.0 * radius) if self.kind == "flat" else self.depth
-        return np.array([half, depth, 1.0 / (2.0 * effective)])
+        return np.array([half, depth, 1.0 / (2.0 * effective), felt])
 
     def direction(self) -> np.ndarray:
         """Unit direction (x, r, psi) at the start."""

@@ -13,7 +13,7 @@ import numpy as np
 from flexcage.bearings.cylindrical_roller import checks, designs, lands, ratings
 from flexcage.bearings.cylindrical_roller.spot import RollerSpot
 from flexcage.cages.window.cage import WindowCage
-from flexcage.core.spec import option, quantity
+from flexcage.core.spec import GIVEN, option, quantity
 from flexcage.core.units import typeset
 from flexcage.geometry.bearing import (
     Bearing,
@@ -28,6 +28,7 @@ from flexcage.geometry.cage import Cage
 from flexcage.geometry.checks import Finding
 from flexcage.geometry.film import Film, Oil, both_races, line_film, rolling_entrainment
 from flexcage.geometry.materials import MATERIALS, Material
+from flexcage.geometry.other_kinds import SURROUNDINGS
 from flexcage.geometry.spall import BY_RACE, Spall
 
 BY_DESIGN = (
@@ -52,7 +53,9 @@ class RollerProfile:
     """
 
     kind: str = option("logarithmic", choices=("logarithmic", "crowned", "straight"))
-    crown_radius: float = quantity("m", 10.0, doc="radius of a crowned profile", above=0.0)
+    crown_radius: float = quantity(
+        "m", 10.0, doc="radius of a crowned profile", above=0.0, when={"kind": ("crowned",)}
+    )
 
     def drop(self, x: np.ndarray, *, diameter: float, length: float) -> np.ndarray:
         """Radial drop [m] at |x| < length/2; infinite at the very end of a logarithmic profile."""
@@ -82,6 +85,7 @@ class RollerBearing(Bearing):
     elsewhere: ClassVar[Mapping[str, str]] = {
         "(inner_|outer_)?(ribs?|flanges?)(_.*)?": BY_RIBS,
         **BY_RACE,
+        **SURROUNDINGS,
     }
 
     type: str = type_name("cylindrical_roller")
@@ -123,15 +127,21 @@ class RollerBearing(Bearing):
         "um", 0.0, doc="standard deviation of roller diameters (seeded)", minimum=0.0
     )
     inner_waviness: float = quantity("um", 0.0, doc="amplitude of inner race waviness", minimum=0.0)
-    inner_waviness_order: int = option(2, doc="waves per turn, inner race", minimum=1)
+    inner_waviness_order: int = option(
+        2, doc="waves per turn, inner race", minimum=1, when={"inner_waviness": GIVEN}
+    )
     inner_waviness_azimuth: float = quantity(
-        "deg", 0.0, doc="azimuth of a crest on the inner ring", legacy=0.0
-    )
+        "deg", 0.0, doc="azimuth of a crest on the inner ring", legacy=0.0,
+        when={"inner_waviness": GIVEN},
+    )  # fmt: skip
     outer_waviness: float = quantity("um", 0.0, doc="amplitude of outer race waviness", minimum=0.0)
-    outer_waviness_order: int = option(2, doc="waves per turn, outer race", minimum=1)
-    outer_waviness_azimuth: float = quantity(
-        "deg", 0.0, doc="azimuth of a crest on the outer ring", legacy=0.0
+    outer_waviness_order: int = option(
+        2, doc="waves per turn, outer race", minimum=1, when={"outer_waviness": GIVEN}
     )
+    outer_waviness_azimuth: float = quantity(
+        "deg", 0.0, doc="azimuth of a crest on the outer ring", legacy=0.0,
+        when={"outer_waviness": GIVEN},
+    )  # fmt: skip
     inner_spall: Spall = option(Spall(), doc="a pit of the inner race, which turns with its ring")
     outer_spall: Spall = option(Spall(), doc="a pit of the outer race")
     roller_spot: RollerSpot = option(

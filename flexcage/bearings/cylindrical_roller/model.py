@@ -26,7 +26,7 @@ from flexcage.contacts.race import RaceSide, race_work
 from flexcage.contacts.rib import RibData
 from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT
-from flexcage.contacts.uneven import is_uneven, uneven_race
+from flexcage.contacts.uneven import is_uneven, spread, uneven_race
 from flexcage.geometry.spot import marked
 from flexcage.modes.basis import CageInterface
 from flexcage.system.bodies import bodies_of, elastic_constants, land_data, unbalanced
@@ -74,7 +74,8 @@ def _race_side(bearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool
     equivalent = rw * radius / (radius + sign * rw)
     modulus = bearing.material.plane_strain_modulus  # E' = 2/(2 (1-nu^2)/E)
     wave, spall = uneven_race(bearing, "inner" if inner else "outer", radius, equivalent)
-    stiffness = laws.iso_line_stiffness(bearing.effective_length) / contacts.race.slices
+    stiffness = laws.iso_line_stiffness(bearing.effective_length, modulus)
+    stiffness /= contacts.race.slices
     return RaceSide(
         sign=sign,
         radius=radius,
@@ -90,7 +91,7 @@ def _race_side(bearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool
             s, bearing.effective_length / contacts.race.slices
         ),
         uneven=is_uneven(wave, spall),
-        spot=bearing.roller_spot.dimensions(rw, equivalent),
+        spot=bearing.roller_spot.dimensions(rw, equivalent, spread(equivalent, modulus)),
         spotted=bearing.roller_spot.covered(s, bearing.effective_length / contacts.race.slices),
     )
 

@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from flexcage.core.spec import option, quantity
+from flexcage.core.spec import GIVEN, option, quantity
 from flexcage.core.units import mm
 from flexcage.geometry.spall import covered
 from flexcage.geometry.spot import find_in_spots, spotted_in_words
 
 if TYPE_CHECKING:
     from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
+
+_IS = {"size": GIVEN}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,30 +28,40 @@ class RollerSpot:
     """
 
     size: float = quantity("mm", 0.0, doc="length round the roller; 0: no spot", minimum=0.0)
-    kind: str = option("pit", doc="what it is", choices=("pit", "flat"))
-    roller: int = option(0, doc="roller that has it", minimum=0)
+    kind: str = option("pit", doc="what it is", choices=("pit", "flat"), when=_IS)
+    roller: int = option(0, doc="roller that has it", minimum=0, when=_IS)
     others: tuple[int, ...] = option(
-        (), doc="further rollers with a spot alike", minimum=0, legacy=()
+        (), doc="further rollers with a spot alike", minimum=0, legacy=(), when=_IS
     )
-    depth: float = quantity("um", 100e-6, doc="depth of a pit", above=0.0)
-    width: float | None = quantity("mm", None, doc="axial width (default: all)", above=0.0)
-    offset: float = quantity("mm", 0.0, doc="axial distance of its middle from the roller's")
+    depth: float = quantity(
+        "um", 100e-6, doc="depth of a pit", above=0.0, when={**_IS, "kind": ("pit",)}
+    )
+    width: float | None = quantity(
+        "mm", None, doc="axial width (default: all)", above=0.0, when=_IS
+    )
+    offset: float = quantity(
+        "mm", 0.0, doc="axial distance of its middle from the roller's",
+        when={**_IS, "width": GIVEN},
+    )  # fmt: skip
     angle: float = quantity(
-        "deg", 0.0, doc="where it is at the start: from outwards towards the sense of the orbit"
-    )
+        "deg", 0.0, doc="where it is at the start: from outwards towards the sense of the orbit",
+        when=_IS,
+    )  # fmt: skip
 
     @property
     def rollers(self) -> tuple[int, ...]:
         """Numbers of the rollers that have one."""
         return tuple(sorted({self.roller, *self.others})) if self.size else ()
 
-    def dimensions(self, radius: float, effective: float) -> np.ndarray:
-        """Half of its angle, 0, its depth, and the drop over the square of an angle, as
-        ``contacts.uneven.sunk_at`` has them, of a roller of a radius [m] on a race with which it
-        has the ``effective`` one [m]."""
+    def dimensions(self, radius: float, effective: float, felt: float) -> np.ndarray:
+        """Half of its angle, 0, its depth, the drop over the square of an angle, and half of the
+        angle over which its edges are felt, as ``contacts.uneven.sunk_at`` has them, of a roller of
+        a radius [m] on a race with which it has the ``effective`` one [m]; ``felt`` [m]: half of
+        that width."""
         half = 0.5 * self.size
         depth = half**2 / (2.0 * radius) if self.kind == "flat" else self.depth
-        return np.array([half / radius, 0.0, depth, radius**2 / (2.0 * effective)])
+        bend = radius**2 / (2.0 * effective)
+        return np.array([half / radius, 0.0, depth, bend, felt / radius])
 
     def covered(self, centres: np.ndarray, slice_width: float) -> np.ndarray:
         """Share (n,) of slices that lie on it, by the places of their centres (n,) [m]."""

@@ -24,6 +24,8 @@ from flexcage.contacts import laws
 from flexcage.contacts.evaluation import REPORT, RESIDUAL, TANGENT
 from flexcage.contacts.land import DRY, NONE
 from flexcage.contacts.pocket_wall import with_offset
+from flexcage.contacts.race import RaceSide
+from flexcage.contacts.uneven import is_uneven
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.geometry.kinematics import epicyclic
 from flexcage.system.constraints import OFF, no_rows
@@ -393,16 +395,29 @@ def roller_start(
     bearing: Bearing, *, limit_force: float, statics: StaticStart | None, advance: Advance
 ) -> Start:
     """Equilibrium at epicyclic speeds; the static solution is not asked for. Where none is found on
-    spots of rollers, the start is that of even ones."""
+    spalls or on spots of rollers, the start is that of even ones."""
     model = bearing.data.model
-    if model.spot.has.any():
+    spotted = bool(model.spot.has.any())
+    if spotted or model.inner.spall[0] > 0.0 or model.outer.spall[0] > 0.0:
+        allowed = _ON_SPOTS if spotted else _BALANCED
         try:
-            return _start(bearing, limit_force, advance, allowed=_ON_SPOTS)
+            return _start(bearing, limit_force, advance, allowed=allowed)
         except RunFailed:
-            even = model._replace(spot=model.spot._replace(has=0 * model.spot.has))
             bearing = copy(bearing)
-            bearing.data = bearing.data._replace(model=even)
+            bearing.data = bearing.data._replace(model=_without_pits(model))
     return _start(bearing, limit_force, advance, allowed=_BALANCED)
+
+
+def _without_pits(model: RollerModel) -> RollerModel:
+    """The model with neither spalls of races nor spots of rollers."""
+    spot = model.spot._replace(has=0 * model.spot.has)
+    return model._replace(spot=spot, inner=_even(model.inner), outer=_even(model.outer))
+
+
+def _even(side: RaceSide) -> RaceSide:
+    """The race without its spall."""
+    spall = 0.0 * side.spall
+    return side._replace(spall=spall, uneven=is_uneven(side.wave, spall))
 
 
 def _start(bearing: Bearing, limit_force: float, advance: Advance, *, allowed: float) -> Start:

@@ -42,7 +42,8 @@ def rollers_of(
     from flexcage.contacts.laws import iso_line_stiffness  # its kernels take seconds to load
 
     places, drop = slice_grid(bearing, contacts.race.slices)
-    stiffness = iso_line_stiffness(bearing.effective_length)
+    modulus = bearing.material.plane_strain_modulus
+    stiffness = iso_line_stiffness(bearing.effective_length, modulus)
     cage = epicyclic(
         element_diameter=bearing.roller_diameter,
         pitch_diameter=bearing.pitch_diameter,

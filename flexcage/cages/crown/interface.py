@@ -41,7 +41,7 @@ def crown_weights(
         end = asin(ends[pocket] / radius)
         hats = _hats_in(pocket_frame(pocket, count), len(stations), end)
         rows.append(model.face_weights(model.group(f"pocket{pocket}_wall"), hats))
-    return normalised(sp.vstack(rows))
+    return normalised(sp.vstack(rows), [f"pocket{k}_wall" for k in range(count)])
 
 
 def _hats_in(frame: np.ndarray, count: int, end: float) -> Callable[[np.ndarray], np.ndarray]:

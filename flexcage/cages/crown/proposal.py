@@ -6,6 +6,7 @@ from math import pi, sin
 from typing import Any
 
 from flexcage.cages.crown.cage import CrownCage
+from flexcage.core.errors import InputError
 from flexcage.geometry.inside import ProposedCage, rounded
 
 # over the ball's diameter
@@ -14,6 +15,7 @@ _WALL = 0.45  # of the wall, outwards and inwards together
 _THROAT = 0.92
 _CLAW, _RING = 0.13, 0.18  # thickness of claws, and of the ring under the pockets
 _GAP = 0.06  # between neighbouring claws at their roots, at least
+_THINNEST = 0.065  # of claws: thinner ones hold no ball, and take a mesh of hundreds of thousands
 _STEP = 10e-6  # m
 
 
@@ -24,6 +26,14 @@ def propose_crown_cage(bearing: Any) -> ProposedCage:
     throat = rounded(_THROAT * ball, _STEP)
     half = 0.5 * (pitch * sin(pi / bearing.element_count) - _GAP * ball)
     usual, most = _CLAW * ball, (half - 0.5 * pocket) / 1.5  # claw and root take 1.5 thicknesses
+    if most < _THINNEST * ball:
+        raise InputError(
+            f"the balls stand so close that claws could be {1e3 * max(most, 0.0):.2g} mm thick "
+            f"at most, and a crown cage has claws of at least {1e3 * _THINNEST * ball:.2g} mm, "
+            f"{_THINNEST:g} times the ball's diameter",
+            where="cage.claw_thickness",
+            value=most,
+        )
     tip = 0.5 * (pocket**2 - throat**2) ** 0.5
     cage = CrownCage(
         bore=rounded(pitch - _WALL * ball, _STEP),

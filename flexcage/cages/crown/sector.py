@@ -19,6 +19,7 @@ from flexcage.mesh.sector import (
     MM,
     Quarter,
     SizePlan,
+    generate,
     grow_from,
     mesh_arrays,
     named_surfaces,
@@ -62,7 +63,7 @@ def mesh_crown_half(
         if breaks:
             _divide(gmsh, cage, pocket_count, fronts)
         _set_sizes(gmsh, plan, cage, pitch_radius)
-        gmsh.model.mesh.generate(3)
+        generate(gmsh, plan)
         points, tets, faces = mesh_arrays(gmsh)
     surfaces = named_surfaces(
         faces, points, lambda on: _surface_name(on, cage, pocket_count, pitch_radius),

@@ -16,6 +16,7 @@ from flexcage.cages.machined.morph import apply_ball_defects, make_spherical
 from flexcage.cages.machined.sector import mesh_ball_quarter
 from flexcage.core.errors import InputError
 from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.mesh.compare import COARSE, check_place
 from flexcage.mesh.io import read_mesh
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.ring import ring_of
@@ -60,19 +61,25 @@ def build_round_pockets(
     cage.check(pocket_count)
     cage.check_defects(defects, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
     pitch_radius = 0.5 * pitch_diameter
+
+    def built(options: MeshOptions) -> CageMesh:
+        quarter = quarter_of(cage, pocket_count, pitch_diameter, defects, options)
+        mesh = ring_of(quarter, pocket_count)
+        log.debug("%r from %d tetrahedra in a quarter sector", mesh, len(quarter.tets))
+        return apply(mesh, cage, defects, pitch_radius=pitch_radius)
+
     if options.file:
         mesh = read_mesh(options.file, pocket_count=pocket_count, unit=options.file_unit)
-        return measure(mesh, cage, defects, pitch_radius=pitch_radius, source=options.file)
+        mesh = measure(mesh, cage, defects, pitch_radius=pitch_radius, source=options.file)
+        check_place(mesh, lambda: built(COARSE), source=options.file)
+        return mesh
     if options.fillet_size is not None:
         raise InputError(
             "mesh.fillet_size is of window cages; round pockets have no fillets: give mesh.size.",
             where="mesh.fillet_size",
             value=options.fillet_size,
         )
-    quarter = quarter_of(cage, pocket_count, pitch_diameter, defects, options)
-    mesh = ring_of(quarter, pocket_count)
-    log.debug("%r from %d tetrahedra in a quarter sector", mesh, len(quarter.tets))
-    return apply(mesh, cage, defects, pitch_radius=pitch_radius)
+    return built(options)
 
 
 def machined_quarter(

@@ -165,7 +165,7 @@ def wall_weights(
             return station_hats(np.arctan2(*from_axis), len(stations))
 
         rows.append(model.face_weights(model.group(f"pocket{pocket}_wall"), hats))
-    return normalised(sp.vstack(rows))
+    return normalised(sp.vstack(rows), [f"pocket{k}_wall" for k in range(count)])
 
 
 def station_hats(angles: np.ndarray, count: int) -> np.ndarray:

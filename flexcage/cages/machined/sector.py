@@ -21,6 +21,7 @@ from flexcage.mesh.sector import (
     RING_SURFACES,
     Quarter,
     SizePlan,
+    generate,
     mesh_arrays,
     named_surfaces,
     only_cylinder,
@@ -64,7 +65,7 @@ def mesh_ball_quarter(
     with gmsh_model("flexcage quarter sector of a ball cage") as gmsh:
         _shape(gmsh, cage, pocket_count, plan.stretch, tips)
         set_sizes(gmsh, plan, only_cylinder(gmsh, "pocket wall"))
-        gmsh.model.mesh.generate(3)
+        generate(gmsh, plan)
         points, tets, faces = mesh_arrays(gmsh, plan.stretch)
     surfaces = named_surfaces(
         faces, points, lambda on: _surface_name(on, cage, pocket_count), SURFACES

@@ -21,6 +21,7 @@ from flexcage.mesh.sector import (
     MM,
     Quarter,
     SizePlan,
+    generate,
     grow_from,
     mesh_arrays,
     named_surfaces,
@@ -65,7 +66,7 @@ def mesh_ribbon_quarter(
     with gmsh_model("flexcage quarter sector of a ribbon cage") as gmsh:
         _shape(gmsh, cage, pocket_count, 0.5 * pitch_diameter)
         _set_sizes(gmsh, plan, cage)
-        gmsh.model.mesh.generate(3)
+        generate(gmsh, plan)
         points, tets, faces = mesh_arrays(gmsh)
     surfaces = named_surfaces(
         faces, points, lambda on: _surface_name(on, cage, pocket_count, 0.5 * pitch_diameter),

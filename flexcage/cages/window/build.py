@@ -28,6 +28,16 @@ def build_window_mesh(
     cage.check_defects(defects, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
     if options.file:
         return _from_file(cage, pocket_count, pitch_diameter, defects, options)
+    return _built(cage, pocket_count, pitch_diameter, defects, options)
+
+
+def _built(
+    cage: WindowCage,
+    pocket_count: int,
+    pitch_diameter: float,
+    defects: Sequence[WindowDefect],
+    options: MeshOptions,
+) -> CageMesh:
     quarter = mesh_quarter(cage, pocket_count=pocket_count, options=options)
     mesh = ring_of(quarter, pocket_count)
     log.debug("%r from %d tetrahedra in a quarter sector", mesh, len(quarter.tets))
@@ -42,9 +52,15 @@ def _from_file(
     options: MeshOptions,
 ) -> CageMesh:
     from flexcage.cages.window.measure import measure_file_defects
+    from flexcage.mesh.compare import COARSE, check_place
     from flexcage.mesh.io import read_mesh
 
     mesh = read_mesh(options.file, pocket_count=pocket_count, unit=options.file_unit)
-    return measure_file_defects(
+    mesh = measure_file_defects(
         mesh, cage, defects, pitch_radius=0.5 * pitch_diameter, source=options.file
     )
+    check_place(
+        mesh, lambda: _built(cage, pocket_count, pitch_diameter, defects, COARSE),
+        source=options.file,
+    )  # fmt: skip
+    return mesh

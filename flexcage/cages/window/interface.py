@@ -22,6 +22,7 @@ from flexcage.modes.interface import (
 from flexcage.modes.pockets import (
     LOADS_PER_POCKET,
     NORMALS,
+    face_group,
     hat_weights,
     pocket_frame,
     pocket_frames,
@@ -122,7 +123,8 @@ def station_weights(model: FEModel, stations: np.ndarray, pocket_count: int) -> 
     """Weights (Z*4*n_st, N): station value <- nodal values, rows summing to one."""
     faces = [(k, f) for k in range(pocket_count) for f in range(len(FACES))]
     return normalised(
-        sp.vstack([hat_weights(model, k, f, stations[f], pocket_count) for k, f in faces])
+        sp.vstack([hat_weights(model, k, f, stations[f], pocket_count) for k, f in faces]),
+        [face_group(k, f) for k, f in faces],
     )
 
 

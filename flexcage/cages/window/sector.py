@@ -22,6 +22,7 @@ from flexcage.mesh.sector import (
     RING_SURFACES,
     Quarter,
     SizePlan,
+    generate,
     mesh_arrays,
     only_cylinder,
     section_prism,
@@ -67,7 +68,7 @@ def mesh_quarter(cage: WindowCage, *, pocket_count: int, options: MeshOptions) -
         _shape(gmsh, cage, pocket_count, plan.stretch)
         fillet = _fillet_surface(gmsh, cage)
         set_sizes(gmsh, plan, fillet)
-        gmsh.model.mesh.generate(3)
+        generate(gmsh, plan)
         points, tets, faces = mesh_arrays(gmsh, plan.stretch)
     surfaces = {
         _surface_name(points[np.unique(triangles)], cage, pocket_count): triangles

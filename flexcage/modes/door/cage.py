@@ -73,14 +73,23 @@ def basis_from_body(
         )
     check_mass(body, model, spec.body_units)
     shapes = body.shapes[order]
-    check_modal_mass(body, shapes, model)
+    if not body.kind:
+        modes = _eigenmodes(body, shapes, model)
+        mass = check_modal_mass(body.source, np.ones(len(modes[0])), _masses(modes[1], model))
+        basis = _of_eigenmodes(modes, model, pocket_count, spec)
+        return _fitted(basis, solver, pocket_count, mass)
+    mass = check_modal_mass(body.source, np.diag(body.dense()[1]), _masses(shapes, model))
     if RESIDUAL in body.kind:
         basis = _as_named(body, shapes, model, pocket_count)
-    elif body.kind:
-        basis = _named(body, shapes, np.arange(body.size))
     else:
-        basis = _of_eigenmodes(body, shapes, model, pocket_count, spec)
-    return _fitted(basis, solver, pocket_count)
+        basis = _named(body, shapes, np.arange(body.size))
+    return _fitted(basis, solver, pocket_count, mass)
+
+
+def _masses(shapes: np.ndarray, model: FEModel) -> np.ndarray:
+    """Mass (n,) that shapes (N, 3, n), or (3N, n), make with the cage's own elements."""
+    flat = shapes.reshape(model.n_dof, -1)
+    return np.einsum("ij,ij->j", flat, model.mass_times(flat))
 
 
 def _named(body: ReducedBody, shapes: np.ndarray, kept: np.ndarray) -> ModeBasis:
@@ -125,15 +134,22 @@ def _as_named(
     return replace(basis, residual=residual_flexibility(vectors, stiffness, share, pocket_count))
 
 
-def _of_eigenmodes(
-    body: ReducedBody, shapes: np.ndarray, model: FEModel, pocket_count: int, spec: ModesSpec
-) -> ModeBasis:
+def _eigenmodes(
+    body: ReducedBody, shapes: np.ndarray, model: FEModel
+) -> tuple[np.ndarray, np.ndarray]:
+    """Squared angular frequencies (m,) and shapes (3N, m) of the body's elastic modes."""
     values, turns = elastic_modes(body, where=WHERE)
-    every = shapes.reshape(model.n_dof, -1) @ turns
     if len(values) < 1:
         raise InputError(
             f"{body.source} has rigid motions alone; write modes as well.", where=WHERE
         )
+    return values, shapes.reshape(model.n_dof, -1) @ turns
+
+
+def _of_eigenmodes(
+    modes: tuple[np.ndarray, np.ndarray], model: FEModel, pocket_count: int, spec: ModesSpec
+) -> ModeBasis:
+    values, every = modes
     n = _dynamic_count(values, spec)
     residual = None
     if pocket_groups(model.groups) == POCKET_GROUPS and n < len(values):
@@ -182,8 +198,8 @@ def _every_load(model: FEModel, pocket_count: int, per: int) -> sp.csc_matrix:
     return sp.hstack(every, format="csc")
 
 
-def _fitted(basis: ModeBasis, solver: FreeBodySolver, pocket_count: int) -> ModeBasis:
-    """The basis with what it misses beside the cage's own elements."""
+def _fitted(basis: ModeBasis, solver: FreeBodySolver, pocket_count: int, mass: float) -> ModeBasis:
+    """The basis with what it misses beside the cage's own elements; ``mass`` as ``BodyFit``."""
     model = solver.model
     flat = basis.shapes.reshape(model.n_dof, -1)
     own = np.einsum("ij,ij->j", flat, model.K @ flat)
@@ -202,6 +218,7 @@ def _fitted(basis: ModeBasis, solver: FreeBodySolver, pocket_count: int) -> Mode
             stiffness=float(stiffer[np.argmax(np.abs(np.log(stiffer)))]),
             carried=float((carried / whole).min()),
             compliance=float(whole[0]),
+            mass=mass,
         ),
     )
 

@@ -15,7 +15,8 @@ _SIZE = (
     0.05  # share by which the largest distance from the axis may differ: nodes are compared then
 )
 _APART = 1e-4  # of the cage's radius, that nodes may lie apart: GRID fields of eight characters
-_MASS = 0.02  # share by which mass, inertia and modal masses may differ from those of the mesh
+_LUMPED = 0.5  # share by which the mass of single modes may differ: lumped masses of coarse meshes
+_MASS = 0.02  # share by which mass, inertia and the best of the modal masses may differ
 
 
 def match_nodes(body: ReducedBody, model: FEModel, units: str) -> np.ndarray:
@@ -76,18 +77,22 @@ def _remedy(ratio: float, units: str, *, mass: bool) -> str:
     return "give cage.material the body's density, or name the body's own mesh as mesh.file"
 
 
-def check_modal_mass(body: ReducedBody, shapes: np.ndarray, model: FEModel) -> None:
-    """Refuse a body whose mass is not that of its shapes (N, 3, n) on the mesh of the cage."""
-    _, mass = body.dense()
-    flat = shapes.reshape(model.n_dof, -1)
-    own = np.einsum("ij,ij->j", flat, model.mass_times(flat))
-    off = np.abs(np.diag(mass) / own - 1.0)
-    worst = int(np.argmax(off))
-    if off[worst] > _MASS:
+def check_modal_mass(source: str, masses: np.ndarray, own: np.ndarray) -> float:
+    """Mass (m,) of the modes over that of their shapes on the mesh, ``own``: the ratio that is
+    farthest from 1.
+
+    Lumped masses move that of the higher modes, which is accepted and said. InputError where no
+    mode has the mass of its shape: then all have another density or unit.
+    """
+    ratio = masses / own
+    off = np.abs(ratio - 1.0)
+    if off.min() > _MASS or off.max() > _LUMPED:
+        worst = int(np.argmax(off))
         raise InputError(
-            f"{body.source}: the mass of coordinate {worst + 1} is {mass[worst, worst]:.4g}, but "
-            f"its shape on the cage's mesh makes {own[worst]:.4g} of it; give cage.material the "
-            "body's density, and shapes in the unit and the order of the matrices.",
+            f"{source}: the mass of mode {worst + 1} is {masses[worst]:.4g}, but its shape on the "
+            f"cage's mesh makes {own[worst]:.4g} of it; give cage.material the body's density, and "
+            "shapes in the unit and the order of the matrices.",
             where=WHERE,
             value=float(off[worst]),
         )
+    return float(ratio[np.argmax(off)])

@@ -9,7 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from flexcage.core.arrays import Damaged
 from flexcage.core.errors import InputError
+from flexcage.mesh.files.raw import Refused
 from flexcage.modes.door.body import MODAL, ReducedBody
 
 
@@ -47,13 +49,23 @@ class Contents:
 
 def unreadable(path: Path, reason: object, *, where: str) -> InputError:
     """The error to raise for a file that is not what its name says."""
-    first = str(reason).strip().splitlines()[0] if str(reason).strip() else type(reason).__name__
+    if isinstance(reason, Refused):
+        return InputError(f"{path}: {reason}.", where=where, value=str(path))
     return InputError(
         f"{path} cannot be read as a {path.suffix} file: it is empty, cut short, or not what its "
-        f"name says ({first}).",
+        f"name says{_told(path, reason)}.",
         where=where,
         value=str(path),
     )
+
+
+def _told(path: Path, reason: object) -> str:
+    """A reason that a reader can use; what libraries say of their insides is none."""
+    if path.is_file() and path.stat().st_size == 0:
+        return " (there is nothing in it)"
+    if isinstance(reason, MemoryError):
+        return " (memory has no room for matrices as large as it says)"
+    return f" ({reason})" if isinstance(reason, Damaged) else ""
 
 
 def picked(found: Mapping[str, Any], names: tuple[str, ...]) -> Any | None:

@@ -14,6 +14,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from flexcage.core.errors import InputError, unwritable
+from flexcage.core.writing import written
 from flexcage.modes.door.body import MODAL, ReducedBody
 from flexcage.modes.door.checks import check_body
 from flexcage.modes.door.contents import Contents, Points
@@ -79,7 +80,8 @@ def write_body(body: ReducedBody, path: str | Path, **options: Any) -> Path:
             f"'{path}' should end in {' or '.join(FORMATS)}.", where="out", value=str(path)
         )
     try:
-        _module(path.suffix.lower()).write(body, path, **options)
+        with written(path) as temporary:
+            _module(path.suffix.lower()).write(body, temporary, **options)
     except OSError as error:
         raise unwritable(f"The body '{path}'", error, path=path) from error
     return path

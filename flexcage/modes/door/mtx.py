@@ -1,49 +1,62 @@
 """Bodies as Abaqus substructures (.mtx): a linear user element with its matrices.
 
 Abaqus writes them with ``*SUBSTRUCTURE MATRIX OUTPUT, OUTPUT FILE=USER DEFINED, STIFFNESS=YES,
-MASS=YES``, and CalculiX with the same keyword, stiffness alone: the element's nodes as a comment,
-its degrees of freedom, and the lower triangles row by row (Abaqus Analysis User's Guide, User-
-defined elements). Where the nodes are stands in another deck (``nodes``). flexcage writes them
-into the same file as a ``*NODE`` block, and shapes and kinds, which a user element does not have,
-as comments that Abaqus passes over.
+MASS=YES``: the element's nodes as a comment, its degrees of freedom, and the lower triangles row by
+row (Abaqus Analysis User's Guide, User-defined elements). CalculiX has the same keyword, for
+stiffness alone. Its version 2.20 writes the rows of the retained degrees of freedom as they were
+assembled, without what the others yield: such a file is refused.
+
+Where the nodes are stands in another deck (``nodes``). flexcage writes them into the same file as a
+``*NODE`` block, and shapes and kinds, which a user element does not have, as comments that Abaqus
+passes over.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 
-from flexcage.mesh.abaqus import read_nodes
+from flexcage.core.arrays import Damaged
+from flexcage.core.errors import InputError
+from flexcage.mesh.files.abaqus import read_nodes
+from flexcage.mesh.files.raw import lines_of, text_of
 from flexcage.modes.door.body import ReducedBody
 from flexcage.modes.door.contents import Contents, Points, labels_of, numbers_of, unreadable
 
 _OWN = "** FLEXCAGE "  # begins the comments of ours
+_CALCULIX, _HEAD = "** GENERATION OF SUBSTRUCTURE", 5  # among its first lines
 _A_LINE = 4  # numbers of a matrix
 
 
 def read(path: Path, *, where: str) -> Contents:
     """Stiffness, mass if it has one, and coordinates; nodes and shapes of a file of ours."""
     try:
-        return _contents(path)
-    except (ValueError, IndexError, KeyError, OSError, UnicodeDecodeError) as error:
+        return _contents(path, where)
+    except InputError:
+        raise
+    except (ValueError, IndexError, KeyError, OSError) as error:
         raise unreadable(path, error, where=where) from error
 
 
-def _contents(path: Path) -> Contents:
-    lines = path.read_text("utf-8-sig").splitlines()
+def _contents(path: Path, where: str) -> Contents:
+    lines = lines_of(text_of(path))
     labels, matrices = _element(lines), dict(_matrices(lines))
     if labels is None:
-        raise ValueError("it has no *USER ELEMENT with its nodes")
+        _refuse_entries(lines, path, where)
+        raise Damaged("it has no *USER ELEMENT with its nodes")
     if "STIFFNESS" not in matrices:
-        raise ValueError("it has no *MATRIX, TYPE=STIFFNESS")
+        raise Damaged("it has no *MATRIX, TYPE=STIFFNESS")
     for name, matrix in matrices.items():
         if len(matrix) != len(labels):
-            raise ValueError(
+            raise Damaged(
                 f"its {name.lower()} has {len(matrix)} rows, its nodes {len(labels)} degrees of "
                 "freedom"
             )
+    if any(line.startswith(_CALCULIX) for line in lines[:_HEAD]):
+        _refuse_assembled(labels, matrices["STIFFNESS"], path, where)
     numbers, places, sets = read_nodes(path)
     inside = np.isin(labels[:, 0], numbers)
     if len(numbers):
@@ -58,6 +71,45 @@ def _contents(path: Path) -> Contents:
         shapes=None if shapes is None else np.array(shapes, float).reshape(-1, len(labels)),
         kind=tuple(own.get("KINDS", ())),
     )
+
+
+def _refuse_entries(lines: list[str], path: Path, where: str) -> None:
+    """Refuse files of single entries, which other commands write with the same ending."""
+    first = next((line for line in lines if line.strip() and not line.startswith("**")), "")
+    if first.startswith("%%MatrixMarket"):
+        what = "a matrix in the Matrix Market format; read stiffness and mass by scipy.io.mmread"
+    elif re.fullmatch(r"(\s*-?\d+\s*[,\s]){2,4}\s*[-+.\dDEde]+\s*,?\s*", first):
+        what = (
+            "the entries of one matrix, as Abaqus' *MATRIX OUTPUT writes them; write *SUBSTRUCTURE "
+            "MATRIX OUTPUT, OUTPUT FILE=USER DEFINED in its place, or read stiffness and mass by "
+            "numpy.loadtxt"
+        )
+    else:
+        return
+    raise InputError(
+        f"{path} holds {what} and put them into an .npz as K and M, with NODES.",
+        where=where,
+        value=str(path),
+    )
+
+
+def _refuse_assembled(labels: np.ndarray, stiffness: np.ndarray, path: Path, where: str) -> None:
+    """Refuse a stiffness without what the eliminated degrees of freedom yield: only there do two
+    nodes that share no element have no force at all between them."""
+    names, node = np.unique(labels[:, 0], return_inverse=True)
+    first, second = np.nonzero(stiffness)
+    coupled = np.zeros((len(names), len(names)), bool)
+    coupled[node[first], node[second]] = True
+    if not coupled.all():
+        pairs = int((~coupled).sum()) // 2
+        raise InputError(
+            f"{path}: {pairs:,} pairs of the {len(names):,} nodes have no stiffness between them: "
+            "CalculiX wrote the rows of the retained nodes as assembled, without what the other "
+            "nodes yield, as its version 2.20 does; reduce the body with another program, or give "
+            "the full matrices of all nodes as .npz.",
+            where=where,
+            value=pairs,
+        )
 
 
 def _element(lines: list[str]) -> np.ndarray | None:
@@ -112,10 +164,12 @@ def _matrices(lines: list[str]) -> Iterator[tuple[str, np.ndarray]]:
                 if line.startswith("**"):
                     continue
                 break
-            numbers.extend(float(v) for v in line.replace(",", " ").replace("D", "E").split())
+            numbers.extend(
+                float(v) for v in line.upper().replace(",", " ").replace("D", "E").split()
+            )
         size = int((np.sqrt(8.0 * len(numbers) + 1.0) - 1.0) / 2.0 + 0.5)
         if size * (size + 1) // 2 != len(numbers):
-            raise ValueError(f"its {kind.lower()} has {len(numbers)} numbers, and is no triangle")
+            raise Damaged(f"its {kind.lower()} has {len(numbers)} numbers, and is no triangle")
         matrix = np.zeros((size, size))
         matrix[np.tril_indices(size)] = numbers
         yield kind, matrix + np.tril(matrix, -1).T

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from flexcage.core.errors import InputError
-from flexcage.mesh.abaqus import read_nodes
+from flexcage.mesh.files.abaqus import read_nodes
+from flexcage.mesh.files.raw import Refused, lines_of, listed, text_of
 from flexcage.modes.door.contents import Points, unreadable
 from flexcage.modes.door.nastran import nastran
+
+_NOT_FOLLOWED = ("INCLUDE", "GRDSET", "GRIDB", "GRIDG", "EGRID", "GRIDA")
+_SYSTEMS = ("CORD1R", "CORD1C", "CORD1S", "CORD3G")  # pyYeti reads CORD2R, CORD2C and CORD2S
 
 
 def read_points(path: Path, *, where: str) -> Points:
@@ -34,27 +39,54 @@ def read_grids(path: Path, *, where: str, needed: bool = True) -> Points | None:
     """GRID entries of a Nastran bulk file; places in its basic coordinate system, and frames where
     grids move in systems of their own.
 
-    None if there are none and they are not ``needed``.
+    None if there are none and they are not ``needed``. InputError, which names entry and line, for
+    what changes grids and is not followed.
     """
     bulk = nastran("bulk")
     try:
-        table = np.asarray(bulk.rdgrids(str(path), follow_includes=False), float)
-        if table.size and table.ndim == 2 and table[:, [1, 5]].any():
-            return _grids_in_systems(path)
+        text = text_of(path).expandtabs(8)
+        table = np.asarray(bulk.rdgrids(StringIO(text)), float)
+        some = table.ndim == 2 and bool(table.size)
+        systems = some and bool(table[:, [1, 5]].any())
+        _refuse_entries(text, systems=systems)
+        if some:
+            table = np.unique(table, axis=0)  # grids that stand twice alike are one
+            _refuse_twice(table[:, 0].astype(np.int64))
+        if systems:
+            return _grids_in_systems(text)
     except Exception as error:  # of all kinds on broken files
         raise unreadable(path, error, where=where) from error
-    if table.size == 0 or table.ndim != 2:
+    if not some:
         if needed:
             raise InputError(f"{path} has no GRID entries.", where=where, value=str(path))
         return None
-    numbers, first = np.unique(table[:, 0].astype(np.int64), return_index=True)
-    return Points(numbers=numbers, places=table[first, 2:5].copy())
+    return Points(numbers=table[:, 0].astype(np.int64), places=table[:, 2:5].copy())
 
 
-def _grids_in_systems(path: Path) -> Points:
+def _refuse_entries(text: str, *, systems: bool) -> None:
+    """Refuse bulk entries that give or move grids and that are not followed."""
+    refused = (*_NOT_FOLLOWED, *(_SYSTEMS if systems else ()))
+    for line, row in enumerate(lines_of(text), start=1):
+        name = row.replace(",", " ").upper().split(maxsplit=1)[:1]
+        if name and name[0].rstrip("*") in refused:
+            raise Refused(
+                f"line {line}: the entry {name[0]} is not followed, and gives, places or turns "
+                "grids; write all GRID entries into one file, in the basic system"
+            )
+        if name == ["ENDDATA"]:
+            return
+
+
+def _refuse_twice(numbers: np.ndarray) -> None:
+    found, count = np.unique(numbers, return_counts=True)
+    if (count > 1).any():
+        raise Refused(f"it numbers grids twice ({listed(found[count > 1])}); write each once")
+
+
+def _grids_in_systems(text: str) -> Points:
     """Grids with coordinate systems (CORD entries) of their own, by pyYeti's table of them."""
     bulk, n2p = nastran("bulk"), nastran("n2p")
-    table = bulk.bulk2uset(str(path), follow_includes=False)[0]
+    table = bulk.bulk2uset(StringIO(text))[0]
     first = table.iloc[::6]
     motions = n2p.rbgeom_uset(table, [0.0, 0.0, 0.0]).reshape(-1, 6, 6)
     return Points(
@@ -75,7 +107,7 @@ def _abaqus(path: Path, *, where: str) -> Points:
 
 
 def _ansys(path: Path, *, where: str) -> Points:
-    from flexcage.mesh.ansys import read_archive
+    from flexcage.mesh.files.ansys import read_archive
 
     archive: Any = read_archive(path, where=where)
     sets = {str(n).lower(): np.asarray(v) for n, v in archive.node_components.items()}

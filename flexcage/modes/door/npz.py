@@ -6,25 +6,23 @@ A sparse matrix stands there by its parts: K.data, K.indices, K.indptr, K.shape.
 from __future__ import annotations
 
 import zipfile
+import zlib
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
 
+from flexcage.core.arrays import SPARSE, read_arrays, sparse_matrix
 from flexcage.modes.door.body import ReducedBody
 from flexcage.modes.door.contents import Contents, from_matrices, to_matrices, unreadable
-
-_PARTS = ("data", "indices", "indptr", "shape")
 
 
 def read(path: Path, *, where: str) -> Contents:
     """The arrays of the file, sparse ones put together."""
     try:
-        with np.load(path, allow_pickle=False) as file:
-            arrays = {name: file[name] for name in file.files}
-        return from_matrices(_with_sparse(arrays), path, where=where)
-    except (OSError, ValueError, KeyError, zipfile.BadZipFile, EOFError) as error:
+        return from_matrices(_with_sparse(read_arrays(path)), path, where=where)
+    except (OSError, ValueError, zipfile.BadZipFile, zlib.error, EOFError, RuntimeError) as error:
         if hasattr(error, "where"):
             raise
         raise unreadable(path, error, where=where) from error
@@ -36,7 +34,7 @@ def write(body: ReducedBody, path: Path) -> None:
     for name, value in to_matrices(body).items():
         if sp.issparse(value):
             rows = sp.csr_matrix(value)
-            arrays |= {f"{name}.{part}": np.asarray(getattr(rows, part)) for part in _PARTS}
+            arrays |= {f"{name}.{part}": np.asarray(getattr(rows, part)) for part in SPARSE}
         else:
             arrays[name] = value
     with path.open("wb") as file:
@@ -44,8 +42,12 @@ def write(body: ReducedBody, path: Path) -> None:
 
 
 def _with_sparse(arrays: dict[str, np.ndarray]) -> dict[str, Any]:
-    found: dict[str, Any] = {n: a for n, a in arrays.items() if n.partition(".")[2] not in _PARTS}
-    for name in sorted({n.partition(".")[0] for n in arrays} - found.keys()):
-        data, indices, indptr, shape = (arrays[f"{name}.{part}"] for part in _PARTS)
-        found[name] = sp.csr_matrix((data, indices, indptr), shape=tuple(shape))
-    return found
+    parts: dict[str, dict[str, np.ndarray]] = {}
+    found: dict[str, Any] = {}
+    for full_name, array in arrays.items():
+        name, _, part = full_name.partition(".")
+        if part in SPARSE:
+            parts.setdefault(name, {})[part] = array
+        else:
+            found[full_name] = array
+    return found | {name: sparse_matrix(own, name) for name, own in parts.items()}

@@ -6,11 +6,17 @@ any, say where they are.
 
 from __future__ import annotations
 
+import re
+from collections import Counter
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from flexcage.core.arrays import Damaged
+from flexcage.core.memory import in_bytes, total_memory
+from flexcage.mesh.files.raw import text_of
 from flexcage.modes.door.body import ReducedBody
 from flexcage.modes.door.contents import (
     MASS,
@@ -25,12 +31,16 @@ from flexcage.modes.door.contents import (
 from flexcage.modes.door.nastran import nastran
 from flexcage.modes.door.nodes import read_grids
 
+_COPIES = 6.0  # of a matrix while it is read
+
 
 def read(path: Path, *, where: str) -> Contents:
     """Stiffness and mass of the DMIG entries, and the file's own GRID entries."""
     module = _module()
     try:
-        found = module.rddmig(str(path), square=True, expanded=False)
+        text = text_of(path).expandtabs(8)
+        _check_room(text)
+        found = module.rddmig(StringIO(text), square=True, expanded=False)
         grids = read_grids(path, where=where, needed=False)
     except Exception as error:  # of all kinds on broken files
         if hasattr(error, "where"):
@@ -45,6 +55,18 @@ def read(path: Path, *, where: str) -> Contents:
     labels = np.array(index.to_list(), np.int64).reshape(-1, 2)
     whole = [m if m is None else _on(m, index) for m in (stiffness, mass)]
     return Contents(stiffness=whole[0], mass=whole[1], labels=labels, points=grids)
+
+
+def _check_room(text: str) -> None:
+    """Refuse matrices that are too large to be full ones, which pyYeti makes of all."""
+    columns = Counter(re.findall(r"^DMIG\*?[\s,]+(\w+)", text, re.MULTILINE | re.IGNORECASE))
+    name, count = max(columns.items(), key=lambda found: found[1], default=("", 0))
+    need, room = _COPIES * 8.0 * count**2, total_memory()
+    if need > room:
+        raise Damaged(
+            f"its matrix {name} has {count:,} columns, which as a full one take {in_bytes(need)}, "
+            f"and this machine has {in_bytes(room)}; write OUTPUT4, which is read as it stands"
+        )
 
 
 def _on(frame: Any, index: Any) -> np.ndarray:

@@ -11,10 +11,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import sqrt
+from math import ceil
 from typing import Any
 
 import numpy as np
+from scipy.optimize import nnls
 
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.core.units import mm
@@ -26,12 +27,14 @@ from flexcage.geometry.ring import (
     RingSection,
     SectionsOf,
 )
-from flexcage.modes.ring import Held, RingReduction, reduce_ring, spectrum
+from flexcage.modes.ring import Held, RingReduction, reduce_ring, spectrum, strip
 from flexcage.system.statics.elements import ElementLoads
 from flexcage.system.statics.equilibrium import Bending, Posture, Problem, balance
 
 _SETS = 60  # of supports that are tried
+_STRIPS, _A_WALL = 8, 1.5  # of an arc, and for every thickness of the wall in its length
 _PULL = 1e-9  # of the largest force of a support: what counts as none
+_HEAVY, _MISSED = 1e4, 1e-3  # weight of the balance beside compliance; what of it may be missed
 _LEAST_WALL = 0.01  # of the race's radius: thinner rings want thousands of harmonics
 _CHANGE = 1e-8  # of the load: by which centrifugal forces may change from step to step
 TO_V = {  # how a ring's ports are displacements v: axial, radial, tilt
@@ -73,14 +76,18 @@ class Rings:
 
 @dataclass(frozen=True, eq=False)
 class SeatedRing:
-    """One ring on its seat: compliances between races at ``azimuth`` (Z,) and supports at
-    ``support`` (S,); patches of wide supports are supports of their own."""
+    """One ring on its seat: compliances between races at ``azimuth`` (Z,) and supports.
+
+    A support that presses over an arc is a row of strips, each with a force of its own: the middles
+    ``support`` (S,), ``width`` (S,) [rad], and ``of_support`` (S,), the number of the support.
+    """
 
     side: str
     reduction: RingReduction
     azimuth: np.ndarray
     support: np.ndarray = field(default_factory=lambda: np.empty(0))
-    support_length: float = 0.0  # [rad] standard deviation of a support's patch
+    width: np.ndarray = field(default_factory=lambda: np.empty(0))
+    of_support: np.ndarray = field(default_factory=lambda: np.empty(0, int))
     presses_only: bool = False
 
     @property
@@ -97,20 +104,21 @@ class SeatedRing:
         return whole.transpose(2, 0, 3, 1).reshape(self._ports, self._ports)
 
     @cached_property
-    def _bordered(self) -> tuple[np.ndarray, np.ndarray]:
+    def bordered(self) -> tuple[np.ndarray, np.ndarray]:
         """Matrix (S + 2, S + 2) of supports' forces and translation along y and z, and how both
         displace the race (2 Z, S + 2)."""
         r, n = self.reduction, self.reduction.harmonics
-        on_seat, on_race = spectrum(n, self.support_length), spectrum(n, r.along)
+        on_seat, on_race = strip(n[:, None], self.width), spectrum(n, r.along)
         c, count = r.compliance, len(self.support)
-        apart = np.cos(np.multiply.outer(n, self.support[:, None] - self.support))
         across = np.cos(np.multiply.outer(n, self.azimuth[:, None] - self.support))
         whole = np.zeros((count + 2, count + 2))
-        whole[:count, :count] = np.einsum("n,n...->...", on_seat**2 * c[:, 2, 2], apart)
-        whole[:count, count:] = r.rigid[2] * on_seat[1] * _radial(self.support)
+        whole[:count, :count] = r.between_supports(self.support, self.width, c[:, 2, 2])
+        whole[:count, count:] = r.rigid[2] * _radial(self.support)
         whole[count:, :count] = whole[:count, count:].T
         beside = np.empty((len(self.azimuth), 2, count + 2))
-        beside[..., :count] = np.einsum("n,ni,nzs->zis", on_seat * on_race, c[:, :2, 2], across)
+        beside[..., :count] = np.einsum(
+            "ns,n,ni,nzs->zis", on_seat, on_race, c[:, :2, 2], across, optimize=True
+        )
         moved = np.multiply.outer(_radial(self.azimuth), r.rigid[:2] * on_race[1])
         beside[..., count:] = moved.transpose(0, 2, 1)
         return whole, beside.reshape(self._ports, count + 2)
@@ -122,14 +130,12 @@ class SeatedRing:
         whole, beside = self._kept(bears)
         return self.race - beside @ np.linalg.solve(whole, beside.T)
 
-    def supported(self, force: np.ndarray, bears: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Radial forces (S,) of the supports on the ring, outwards, and how far (S,) the ring moves
-        outwards at them, under forces (Z, 2) on its race."""
-        borne, moved = np.zeros(len(bears)), self._answer(force, bears)
-        borne[bears] = moved[:-2]
-        whole, beside = self._bordered
-        away = whole[:-2] @ np.append(borne, moved[-2:]) + beside[:, :-2].T @ force.ravel()
-        return borne, away
+    def supported(self, force: np.ndarray, bears: np.ndarray) -> np.ndarray:
+        """Radial forces (S,) with which supports press on the ring, inwards, under forces (Z, 2) on
+        its race."""
+        press = np.zeros(len(bears))
+        press[bears] = -self._answer(force, bears)[:-2]
+        return press
 
     def translation(self, force: np.ndarray, bears: np.ndarray) -> np.ndarray:
         """Displacement (2,) along y and z of the ring as a whole, under the same."""
@@ -142,14 +148,18 @@ class SeatedRing:
 
     def _kept(self, bears: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         keep = np.append(bears, [True, True])
-        whole, beside = self._bordered
+        whole, beside = self.bordered
         if np.linalg.matrix_rank(_radial(self.support[bears]), tol=1e-6) < 2:
-            raise InputError(
-                f"the supports of the {self.side} ring that still bear leave it free to move "
-                "across the axis; give supports on both sides of the load (outer_ring.supports)",
-                where=f"{self.side}_ring.supports",
-            )
+            raise self.flies()
         return whole[np.ix_(keep, keep)], beside[:, keep]
+
+    def flies(self) -> InputError:
+        """The error of a ring whose supports do not hold it."""
+        return InputError(
+            f"the supports of the {self.side} ring that still bear leave it free to move "
+            "across the axis; give supports on both sides of the load (outer_ring.supports)",
+            where=f"{self.side}_ring.supports",
+        )
 
     @property
     def to_v(self) -> np.ndarray:
@@ -230,7 +240,7 @@ class BendingRings:
             yields = ring.compliance(bears) @ on_race.ravel()
             pressed = np.empty(0)
             if len(bears):
-                pressed = 0.0 - ring.supported(on_race, bears)[0]
+                pressed = ring.supported(on_race, bears)
             found.append(
                 BentRing(ring, on_race, yields.reshape(-1, 2) @ ring.to_v.T, pressed, bears)
             )
@@ -304,15 +314,24 @@ def _seated(
     reduction = reduce_ring(section, spec.material or material, held, supports=len(supports))
     if not supports:
         return SeatedRing(name, reduction, azimuth)
-    # a support's patches are as short as those on the race, which the harmonics resolve
-    patches = max(1, int(arc / (sqrt(12.0) * reduction.along)))
-    places = ((np.arange(patches) + 0.5) / patches - 0.5) * arc
+    presses_only = spec.seat == "arcs"
+    edges = (
+        0.5 * arc * _strips(arc * section.raceway.place[1] / section.wall if presses_only else 0.0)
+    )
+    middles, count = 0.5 * (edges[1:] + edges[:-1]), len(supports)
     return SeatedRing(
         name, reduction, azimuth,
-        support=np.add.outer(np.array(supports), places).ravel(),
-        support_length=max(arc / patches / sqrt(12.0), reduction.along),
-        presses_only=spec.seat == "arcs",
+        support=np.add.outer(np.array(supports), middles).ravel(),
+        width=np.tile(np.diff(edges), count), of_support=np.repeat(range(count), len(middles)),
+        presses_only=presses_only,
     )  # fmt: skip
+
+
+def _strips(walls: float) -> np.ndarray:
+    """Edges, from -1 to 1, of the strips of an arc so many ``walls`` of the ring long; one of a
+    support that pivots. They are narrow at the arc's ends, where a ring bears that lifts off."""
+    count = max(_STRIPS, ceil(walls * _A_WALL)) if walls else 1
+    return -np.cos(np.pi * np.arange(count + 1) / count)
 
 
 def _check_wall(name: str, spec: FlexibleRing, section: RingSection) -> None:
@@ -328,17 +347,24 @@ def _check_wall(name: str, spec: FlexibleRing, section: RingSection) -> None:
 
 
 def _that_bear(ring: SeatedRing, force: np.ndarray, bears: np.ndarray) -> np.ndarray:
-    """The supports (S,) that bear under forces (Z, 2) on the race: none pulls, none is entered."""
+    """The supports (S,) that bear under forces (Z, 2) on the race: none pulls, none is entered.
+
+    Their forces p >= 0 have the least energy p D p/2 - p B f among those that balance the race's,
+    which least squares with a heavy weight on the balance find (C. L. Lawson and R. J. Hanson,
+    Solving Least Squares Problems, chapter 23).
+    """
     if not ring.presses_only:
         return bears
-    for _ in range(_SETS):
-        borne, away = ring.supported(force, bears)
-        pulls = bears & (borne > _PULL * np.abs(borne).max())
-        entered = ~bears & (away > _PULL * np.abs(away).max())
-        if not (pulls | entered).any():
-            return bears
-        bears = bears & ~pulls if pulls.any() else bears | entered
-    raise _no_supports()
+    whole, beside = ring.bordered
+    count, driven = len(bears), beside.T @ force.ravel()
+    root = np.linalg.cholesky(whole[:count, :count])
+    balance = whole[count:, :count]
+    heavy = _HEAVY * np.linalg.norm(root) / np.linalg.norm(balance)
+    given = np.append(np.linalg.solve(root, driven[:count]), heavy * driven[count:])
+    press, _ = nnls(np.vstack([root.T, heavy * balance]), given)
+    if np.abs(balance @ press - driven[count:]).max() > _MISSED * np.abs(driven[count:]).max():
+        raise ring.flies()
+    return press > _PULL * press.max()
 
 
 def _no_supports() -> RunFailed:

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from flexcage._version import __version__
+from flexcage.core.writing import write_text
 from flexcage.geometry.film import Film
 from flexcage.system.statics.elements import ElementLoads
 from flexcage.system.statics.rings import BentRing
@@ -82,9 +83,10 @@ class StaticSolution:
         turns = abs(self.speed) / (2.0 * np.pi) * 3600.0
         return 1e6 * self.ratings.reference_life / turns if turns else float("inf")
 
-    def table(self) -> str:
-        """Everything as text."""
-        return table_of(self)
+    def table(self, width: int = 0) -> str:
+        """Everything as text, in lines of at most ``width`` characters (0: as the terminal is
+        wide)."""
+        return table_of(self, width)
 
     __str__ = table
 
@@ -111,7 +113,7 @@ class StaticSolution:
         """JSON text of ``to_dict``, written to ``path`` as well if one is given."""
         text = json.dumps(self.to_dict(), indent=1) + "\n"
         if path is not None:
-            Path(path).write_text(text, encoding="utf-8")
+            write_text(Path(path), text)
         return text
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.core import html
+from flexcage.core.listing import aligned, wrapped
 
 if TYPE_CHECKING:
     from flexcage.system.statics.rings import BentRing
@@ -17,12 +18,21 @@ _AXES = ("x", "y", "z", "tilt y", "tilt z")
 _SMALL = 1e-9  # of the largest of its kind: shown as 0
 
 
-def table_of(s: StaticSolution) -> str:
-    """Displacements, stiffness, life, and a line for every rolling element."""
-    parts = [_head(s), _ring(s), _stiffness(s), _life(s), _elements(s)]
-    parts += [f"{_bent_note(ring)}\n{_grid(_bent_lines(ring), left=0)}" for ring in s.rings]
-    parts += [_supports(ring) for ring in s.rings if len(ring.bears)]
-    parts += [f"Warning: {text}" for text in s.warnings]
+def table_of(s: StaticSolution, width: int = 0) -> str:
+    """Displacements, stiffness, life, and a line for every rolling element; in lines of at most
+    ``width`` characters (0: as the terminal is wide)."""
+
+    def grid(lines: list[list[str]], sides: str = "lr") -> str:
+        return aligned(lines, sides=sides, heads=True, width=width)
+
+    def noted(note: str, lines: list[list[str]]) -> str:
+        return f"{wrapped(note, width=width)}\n{grid(lines, 'r')}"
+
+    parts = [wrapped(_head(s), width=width), grid(_ring_lines(s)), grid(_stiffness_lines(s))]
+    parts += [aligned(_life_lines(s), width=width), noted(_element_note(s), _element_lines(s))]
+    parts += [noted(_bent_note(ring), _bent_lines(ring)) for ring in s.rings]
+    parts += [grid(_support_lines(ring), "r") for ring in s.rings if len(ring.bears)]
+    parts += [wrapped(f"Warning: {text}", width=width) for text in s.warnings]
     return "\n\n".join(parts)
 
 
@@ -68,10 +78,6 @@ def _clean(values: np.ndarray) -> np.ndarray:
     return np.where(size <= _SMALL * size.max(), 0.0, values)
 
 
-def _ring(s: StaticSolution) -> str:
-    return _grid(_ring_lines(s))
-
-
 def _ring_lines(s: StaticSolution) -> list[list[str]]:
     force, moved = _clean(s.load), _clean(s.displacement)
     reaction = np.where(np.abs(s.reaction) > _SMALL * np.abs(s.load).max(), s.reaction, 0.0)
@@ -85,10 +91,6 @@ def _ring_lines(s: StaticSolution) -> list[list[str]]:
     return lines
 
 
-def _stiffness(s: StaticSolution) -> str:
-    return _grid(_stiffness_lines(s))
-
-
 def _stiffness_lines(s: StaticSolution) -> list[list[str]]:
     unit = np.where(np.arange(5) < 3, 1e6, 1e3)  # per um, per mrad
     matrix = s.stiffness / unit
@@ -99,12 +101,6 @@ def _stiffness_lines(s: StaticSolution) -> list[list[str]]:
         name = f"force {_AXES[k]}, N" if k < 3 else f"moment {_AXES[k][-1]}, N m"
         lines.append([name, *map(_short, row)])
     return lines
-
-
-def _life(s: StaticSolution) -> str:
-    lines = _life_lines(s)
-    width = max(len(line[0]) for line in lines)
-    return "\n".join(f"{name.ljust(width)}  {text}" for name, text in lines)
 
 
 def _life_lines(s: StaticSolution) -> list[list[str]]:
@@ -123,10 +119,6 @@ def _life_lines(s: StaticSolution) -> list[list[str]]:
     if isfinite(s.life_hours()):
         lines.append(["", f"{s.life_hours():.6g} h at this speed"])
     return lines
-
-
-def _elements(s: StaticSolution) -> str:
-    return f"{_element_note(s)}\n{_grid(_element_lines(s), left=0)}"
 
 
 def _element_note(s: StaticSolution) -> str:
@@ -185,13 +177,17 @@ def _bent_lines(ring: BentRing) -> list[list[str]]:
     return lines
 
 
-def _supports(ring: BentRing) -> str:
-    """Patches of the supports that press, or pull."""
-    lines = [["support at, deg", "presses, N"]]
-    for azimuth, force in zip(ring.seated.support, ring.support_force):
-        if force:
-            lines.append([f"{degrees(azimuth):.4g}", f"{force:.5g}"])
-    return _grid(lines, left=0)
+def _support_lines(ring: BentRing) -> list[list[str]]:
+    """The supports that press, or pull: where each is, its force, and where that acts."""
+    lines = [["support at, deg", "presses, N", "its middle at, deg"]]
+    seated = ring.seated
+    for k in np.unique(seated.of_support):
+        strips = seated.of_support == k
+        azimuth, force = seated.support[strips], ring.support_force[strips]
+        if force.any():
+            middle = degrees(azimuth.mean() + force @ (azimuth - azimuth.mean()) / force.sum())
+            lines.append([f"{degrees(azimuth.mean()):.4g}", f"{force.sum():.5g}", f"{middle:.4g}"])
+    return lines
 
 
 def _or_none(value: float, unit: str, otherwise: str) -> str:
@@ -204,14 +200,3 @@ def _or_dash(value: float, form: str) -> str:
 
 def _short(value: float) -> str:
     return f"{value:.6g}"
-
-
-def _grid(lines: list[list[str]], *, left: int = 1) -> str:
-    """Columns to the right, the first ``left`` ones to the left."""
-    widths = [max(len(line[k]) for line in lines) for k in range(len(lines[0]))]
-    return "\n".join(
-        "  ".join(
-            c.ljust(w) if k < left else c.rjust(w) for k, (c, w) in enumerate(zip(line, widths))
-        ).rstrip()
-        for line in lines
-    )

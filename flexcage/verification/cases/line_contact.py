@@ -82,7 +82,7 @@ def approach(law: Sequence[float] | np.ndarray, force: float) -> float:
 
 
 def rows() -> Iterator[Row]:
-    one = laws.iso_line_stiffness(LENGTH) / MM
+    one = laws.iso_line_stiffness(LENGTH, 1.0 / softness(STEEL)) / MM
     yield Row("roller on one race, K", "N/mm^(10/9)", 454517.5, one, PRINTED)
     series = one * 2.0 ** (-10.0 / 9.0)
     yield Row("both races in series, c_L", "N/mm^(10/9)", 210413.1, series, PRINTED)

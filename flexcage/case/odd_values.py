@@ -1,0 +1,124 @@
+"""Values far from any solid or any bearing, with the slip of a unit that they probably are: legal,
+computed as they are, and questioned once each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from flexcage.core.units import describe
+from flexcage.geometry.materials import MATERIALS, Material
+
+if TYPE_CHECKING:
+    from flexcage.case.static import StaticCase
+
+Said = tuple[str, str]  # key of a warning, and its sentence
+
+ODD, OTHER_STEEL = "odd_value", "other_steel"
+_STEEL = 0.1  # by which a modulus may differ from bearing steel's before ratings are another's
+_ROUGHEST = 0.005  # of the element's diameter, ten times the waves of a bad race (assumption)
+
+
+@dataclass(frozen=True)
+class Usual:
+    """Between which values a constant of solids lies, with those at both ends; ``slips``: factors
+    by which a confused unit or a lost digit leaves it."""
+
+    name: str
+    unit: str
+    least: float
+    most: float
+    ends: str
+    slips: tuple[float, ...]
+
+
+_THOUSANDS = (1e3, 1e-3, 1e6, 1e-6)
+_OF_SOLIDS = (
+    Usual("youngs_modulus", "GPa", 0.3e9, 1.2e12, "PTFE has 0.5 GPa, diamond 1100 GPa", _THOUSANDS),
+    Usual("density", "kg/m^3", 800.0, 2.3e4, "polymers have 900 kg/m^3, tungsten 19300 kg/m^3",
+          _THOUSANDS),
+    Usual("poisson_ratio", "", 0.05, 0.48, "diamond has 0.07, steel 0.3, polymers up to 0.46",
+          (10.0, 0.1)),
+    Usual("proof_stress", "MPa", 5e6, 6e9, "PTFE has 10 MPa, hardened steel 2000 MPa", _THOUSANDS),
+)  # fmt: skip
+# by body: rings and elements of the softest polymer have 1 GPa
+_RINGS = (Usual("youngs_modulus", "GPa", 1e9, 1.2e12, "polymer rings have 2 GPa, steel 206 GPa",
+                _THOUSANDS), *_OF_SOLIDS[1:3])  # fmt: skip
+
+
+def odd_values(case: StaticCase) -> Iterator[Said]:
+    """Keys and sentences of warnings on the values of a case."""
+    for where, material, usual in _bodies(case):
+        yield from ((ODD, text) for text in _odd_constants(where, material, usual))
+    yield from ((ODD, text) for text in _rough_races(case))
+    yield from _of_other_steel(case)
+
+
+def _bodies(case: Any) -> Iterator[tuple[str, Material, tuple[Usual, ...]]]:
+    """Key and material of every body that has one, and between what its constants usually are."""
+    yield "bearing.material", case.bearing.material, _RINGS
+    for name in ("inner_ring", "outer_ring"):
+        ring = getattr(case, name)
+        if ring.bends and ring.material is not None:
+            yield f"{name}.material", ring.material, (*_RINGS[:1], *_RINGS[2:])
+    if hasattr(case, "cage"):
+        yield "cage.material", case.cage.material, _OF_SOLIDS
+
+
+def _odd_constants(where: str, material: Material, constants: tuple[Usual, ...]) -> Iterator[str]:
+    for usual in constants:
+        value = getattr(material, usual.name)
+        if usual.least <= value <= usual.most or value == float("inf"):
+            continue
+        probably = next(
+            (value * f for f in usual.slips if usual.least <= value * f <= usual.most), None
+        )
+        meant = f"; is {_text(probably, usual.unit)} meant?" if probably is not None else "."
+        yield (
+            f"{where}.{usual.name} is {_text(value, usual.unit)}, "
+            f"{'below' if value < usual.least else 'above'} that of any solid of bearings "
+            f"({usual.ends}){meant}"
+        )
+
+
+def _text(value: float, unit: str) -> str:
+    return describe(value, unit) if unit else f"{value:.6g}"
+
+
+def _rough_races(case: StaticCase) -> Iterator[str]:
+    bearing = case.bearing
+    diameter, element = bearing.element_diameter, bearing.element
+    for name, what in (
+        ("inner_waviness", "waves of ground races have 0.01 to 5 um"),
+        ("outer_waviness", "waves of ground races have 0.01 to 5 um"),
+        (f"{element}_scatter", f"{element}s of one bearing differ by less than 2 um"),
+    ):
+        value = getattr(bearing, name, 0.0)
+        if value > _ROUGHEST * diameter:
+            yield (
+                f"bearing.{name} is {describe(value, 'um')}, for {element}s of "
+                f"{describe(diameter, 'mm')}: {what}."
+            )
+
+
+def _of_other_steel(case: StaticCase) -> Iterator[Said]:
+    """Ratings and raceways of a material that is no bearing steel."""
+    own, steel = case.bearing.material, MATERIALS["GCr15"].plane_strain_modulus
+    if abs(own.plane_strain_modulus / steel - 1.0) > _STEEL:
+        yield (
+            OTHER_STEEL,
+            "Ratings and lives are those of bearing steel (ISO 76, ISO 281), but bearing.material "
+            f"is {own.name}, with {describe(own.youngs_modulus, 'GPa')}.",
+        )
+    for name in ("inner_ring", "outer_ring"):
+        ring = getattr(case, name)
+        if not ring.bends or ring.material is None:
+            continue
+        if ring.material.plane_strain_modulus != own.plane_strain_modulus:
+            yield (
+                OTHER_STEEL,
+                f"{name}.material ({ring.material.name}) makes the ring bend as it says, but "
+                f"contacts with the ring, and their films, have the moduli of bearing.material "
+                f"({own.name}).",
+            )

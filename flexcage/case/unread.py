@@ -1,0 +1,104 @@
+"""Values that a user gave and nothing reads: named once, in one sentence.
+
+Specs say which of their own values make another one count (``core.unread``); what depends on other
+sections of the case stands here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from flexcage.core.unread import unread, why_unread
+
+if TYPE_CHECKING:
+    from flexcage.case.case import Case
+
+_WORDS = ("name", "description", "preset", "static", "given")  # read by people, or by no run
+_RIGID = "cage.model is 'rigid'"
+_NEVER = {  # of materials beside the cage's, whose strength and damping no figure needs
+    "proof_stress": "no strength of rings and rolling elements is computed",
+    "loss_factor": "rings and rolling elements have no modal damping",
+}
+
+
+def reasons(case: Case) -> dict[str, str]:
+    """Dotted paths of values that nothing reads in such a case, and why: half a sentence. The path
+    of a section stands for all values in it."""
+    found = dict(unread(case))
+    for rule in (_in_contacts, _in_materials, _of_a_rigid_cage, _of_round_pockets, _in_loads):
+        found.update(rule(case))
+    if case.mount.body:  # the outer ring moves in its housing, bending or not
+        for name in ("seat", "relaxation", "foundation", "diameter"):
+            found.pop(f"outer_ring.{name}", None)
+    return found
+
+
+def not_used(case: Case) -> Iterator[str]:
+    """A sentence on all values that were given and that nothing reads; none if all are read.
+
+    A rigid cage leaves those of a flexible one alone: a comparison runs one case as both.
+    """
+    why, by_reason = reasons(case), dict[str, list[str]]()
+    given = {path for path in case.given or () if path.partition(".")[0] not in _WORDS}
+    for path in sorted(given):
+        reason = why_unread(path, why)
+        if reason and reason != _RIGID:
+            by_reason.setdefault(reason, []).append(path)
+    if by_reason:
+        parts = [f"{', '.join(paths)} ({reason})" for reason, paths in by_reason.items()]
+        yield f"Given, but not used: {'; '.join(parts)}."
+
+
+def _in_contacts(case: Case) -> Iterator[tuple[str, str]]:
+    bearing, cage = case.bearing, case.cage
+    for place in ("race", "pocket", "side", "rib"):
+        if place not in bearing.places:
+            article = "an" if bearing.kind[0] in "aeiou" else "a"
+            yield f"contacts.{place}", f"{article} {bearing.kind} has no such contact"
+        elif place not in bearing.sliced:
+            yield f"contacts.{place}.slices", f"{bearing.element}s touch there in points"
+    if bearing.land(cage) is None:
+        why = f"no ring guides the cage: cage.guidance is '{cage.guidance}'"
+        if any(stop is not None for stop in bearing.stops(cage)):
+            yield "contacts.land.clearance", why
+            yield "contacts.land.width", why
+        else:
+            yield "contacts.land", f"the cage meets no land: cage.guidance is '{cage.guidance}'"
+
+
+def _in_materials(case: Case) -> Iterator[tuple[str, str]]:
+    for name, why in _NEVER.items():
+        yield f"bearing.material.{name}", why
+        for ring in ("inner_ring", "outer_ring"):
+            yield f"{ring}.material.{name}", why
+    for ring in ("inner_ring", "outer_ring"):
+        yield f"{ring}.material.density", "rings have the mass that bearing.material gives them"
+
+
+def _of_a_rigid_cage(case: Case) -> Iterator[tuple[str, str]]:
+    if case.cage_model == "rigid":
+        for path in ("modes", "mesh.order", "limits.stress", "output.keep_cage"):
+            yield path, _RIGID
+        yield "cage.material.loss_factor", _RIGID
+        yield "cage.material.proof_stress", _RIGID
+    elif case.modes.damping is not None or case.modes.ratios:
+        given = "damping" if case.modes.damping is not None else "ratios"
+        yield "cage.material.loss_factor", f"modes.{given} is given"
+
+
+def _of_round_pockets(case: Case) -> Iterator[tuple[str, str]]:
+    if not case.cage.has_faces:
+        why = "the cage's pockets are round"
+        yield "modes.attachments", why
+        yield "modes.crossbeams", why
+
+
+def _in_loads(case: Case) -> Iterator[tuple[str, str]]:
+    load = case.load
+    if load.times:
+        yield f"load.{load.varies}", "load.times is given"
+    swings = load.wave != "none" and load.wave_of == "radial"
+    changes = (load.ramp_to is not None or load.times) and load.varies == "radial"
+    if not (load.radial or swings or changes):
+        yield "load.direction", "there is no radial load"

@@ -1,0 +1,88 @@
+"""Kinds of bearings that flexcage has not, by their names and by makers' designations, and what of
+a bearing's surroundings it does not compute: declined by name where people look for them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from types import MappingProxyType
+
+_HAS = (
+    "flexcage has none: it has deep groove and angular contact ball bearings, and cylindrical "
+    "roller bearings, single-row and with a cage"
+)
+# ISO 15 and makers' catalogues (SKF, Schaeffler, NSK): first digits and letters of designations
+# without spaces, dashes and strokes, and what such a bearing is
+_DESIGNATIONS = {
+    r"(HR|T)?3(0[23]|13|2[02389]|3[0-2])\d\d.*": "a tapered roller bearing",
+    r"[BHJ]?5[1-4][1-4]\d\d.*": "a thrust ball bearing",
+    r"2(13|2[23]|3[0-29]|4[01])\d\d.*": "a spherical roller bearing",
+    r"29[234]\d\d.*": "a spherical roller thrust bearing",
+    r"8(1[12]|74|9[34])\d\d.*": "a cylindrical roller thrust bearing",
+    r"(1[23]|2[23])\d\d([A-Z].*)?": "a self-aligning ball bearing",
+    r"(3[0238]|5[23])\d\d([A-Z].*)?": "a double row angular contact ball bearing",
+    r"4[23]\d\d([A-Z].*)?": "a double row deep groove ball bearing",
+    r"QJF?\d.*": "a four-point contact ball bearing",
+    r"(NK|NKI|NKS|NKIS|NA|RNA|HK|BK|NKIA|NKIB|NKX|NKXR|AXK|AXW|K)\d.*": "a needle roller bearing",
+    r"(NCF|NJG|SL1[89]|RSL1[89])\d.*": "a full complement cylindrical roller bearing",
+    r"(NNCF|NNCL|NNC|NNF|SL0\d)\d.*": "a double row full complement cylindrical roller bearing",
+    r"NNU?\d.*": "a double row cylindrical roller bearing",
+    r"(UC|YAR|YET|YEL|GYE|SA|SB)\d.*": "an insert bearing",
+    r"C[2345]\d{3}.*": "a toroidal roller bearing",
+    r"X[RS]U?\d.*|RB\d{4,}.*": "a crossed roller bearing",
+}
+_NAMES = {
+    r"taper.*": "tapered roller bearings",
+    r".*thrust.*": "thrust bearings",
+    r"(spherical|barrel).*": "spherical roller bearings",
+    r"self.?align.*": "self-aligning bearings",
+    r"(double|two|multi|four).?row.*|duplex.*": "bearings of several rows",
+    r"(four|three).?point.*|qj": "four-point contact bearings",
+    r"needle.*": "needle roller bearings",
+    r"full.?complement.*|cageless": "full complement bearings",
+    r"(cross|toroid|carb|insert|slewing|linear|plain|journal|magnetic|slide).*": "such bearings",
+}
+_PAIR = re.compile(r"(7\d{3}[A-Z0-9]*?)(DB|DF|DT(?!N)|QBC|QFC|QBT|QFT|TBT|TFT|TBTX)[A-Z0-9]*")
+_SETS = {"DB": "back to back", "DF": "face to face", "DT": "in tandem"}
+
+#: What a bearing's surroundings have, by pattern of a key that people look for: what there is.
+SURROUNDINGS: Mapping[str, str] = MappingProxyType({
+    r"shafts?|rotors?|spindle": "flexcage has one bearing, and no shaft that bends: drive.kind and "
+    "drive.shaft_stiffness twist one, load.axial_stiffness and load.tilt_stiffness hold the ring, "
+    "load.shaft_mass moves with it",
+    r"housings?": "a housing is [mount]",
+    r"bearings|pairs?|duplex|arrangement|rows?|sets?": "flexcage has one single-row bearing a "
+    "case, [bearing], no pairs or sets; give one its share of the load in [load]",
+    r"pre.?load.*|springs?": "flexcage has no preload between bearings: give its force as "
+    "load.axial, or a negative bearing.radial_clearance",
+    r"(.*_)?temperatures?(_.*)?|heat.*|thermal.*|cooling": "flexcage computes no heat: give "
+    "lubricant.viscosity and the clearance at the temperature of work, and cage.temperature for "
+    "the cage's modulus",
+    r"grease.*|seals?": "flexcage knows the oil of [lubricant]; grease, seals and "
+    "their torque are not computed",
+})  # fmt: skip
+
+
+def kind_of(designation: str) -> str:
+    """Why flexcage has not the bearing of a maker's designation, as a part of a sentence: its kind;
+    empty for one that may be of a kind that it has."""
+    name = re.sub(r"[\s_/-]", "", designation.upper())
+    if pair := _PAIR.fullmatch(name):
+        how = f" {_SETS[pair[2]]}" if pair[2] in _SETS else ""
+        return (
+            f"is a set of bearings{how} ({pair[2]}); flexcage has single ones: take {pair[1]}, "
+            "with its share of the load and the preload in load.axial"
+        )
+    for pattern, kind in _DESIGNATIONS.items():
+        if re.fullmatch(pattern, name):
+            return f"is {kind}; {_HAS}"
+    return ""
+
+
+def named_kind(name: str) -> str:
+    """That flexcage has no bearings of a kind, by a name such as "tapered_roller", as a part of a
+    sentence; empty if the name is of none that it has not."""
+    for pattern, kinds in _NAMES.items():
+        if re.fullmatch(pattern, name.strip(), re.IGNORECASE):
+            return f"of {kinds} {_HAS}"
+    return ""

@@ -1,0 +1,82 @@
+"""The page of two runs compared."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from math import isfinite
+from pathlib import Path
+
+from flexcage.report.blocks import (
+    Block,
+    Cell,
+    Gallery,
+    Image,
+    Notices,
+    Page,
+    Prose,
+    Section,
+    Table,
+    Text,
+)
+from flexcage.report.tables import number, typeset
+from flexcage.results.compared import HEADS, YES, Comparison, Pair
+
+FORCES = "Pocket forces of both runs: over time, how often they occur, and by pocket"
+
+
+def comparison_page(
+    found: Comparison,
+    statements: Mapping[str, Sequence[str]],
+    cases: Mapping[str, str],
+    picture: Path,
+    *,
+    title: str,
+) -> Page:
+    """The page: the ten figures that matter and the picture first, all figures and both cases last.
+
+    ``title`` names the case or both. By the runs' names, ``statements`` say what was computed and
+    ``cases`` are their case files.
+    """
+    first, second = found.names
+    differ = [[path, *map(_text, values)] for path, values in found.differences.items()]
+    sections = [
+        Section("The figures that matter", [
+            _table(found, found.leading, " ".join(found.legend)),
+            *([Prose(found.differ)] if found.differ else []),
+            Table(("figure", "remark"), found.remarks(), fold="Remarks on these figures"),
+        ]),
+        Section("Warnings", [Notices(found.warnings, none="None.")]),
+        Section("Cage forces", [Gallery([Image(picture, FORCES, wide=True)])]),
+        Section("All figures", [
+            _table(found, pairs, title) for title, pairs in found.sections.items() if pairs
+        ]),
+        Section("What was computed", [
+            *([Table(("path in the case", first, second), differ, "Values that differ.")]
+              if differ else []),
+            *(_statement(name, texts) for name, texts in statements.items()),
+        ]),
+        Section("Cases", [Text(name, text) for name, text in cases.items()]),
+    ]  # fmt: skip
+    return Page(f"{title}: {first} and {second} compared", f"{second} against {first}", sections)
+
+
+def _table(found: Comparison, pairs: Sequence[Pair], caption: str = "") -> Table:
+    head = (HEADS[0], *found.names, "unit", *HEADS[1:])
+    return Table(head, [_cells(pair) for pair in pairs], caption)
+
+
+def _cells(pair: Pair) -> list[Cell | str]:
+    values = pair.numbers or (None, None)
+    figures = [Cell(text.replace("-", "–") if text == "-" else text, value)
+               for text, value in zip(pair.texts, values)]  # fmt: skip
+    ratio = number(pair.ratio, pair.ratio_text) if isfinite(pair.ratio) else Cell("–")
+    tone = "bad" if pair.beyond == YES else ""
+    return [pair.row.label, *figures, typeset(pair.row.shown), ratio, Cell(pair.beyond, tone=tone)]
+
+
+def _statement(name: str, texts: Sequence[str]) -> Block:
+    return Prose([f"{name}: {texts[0]}", *texts[1:]] if texts else [])
+
+
+def _text(value: object) -> str:
+    return "none" if value is None else str(value)

@@ -1,0 +1,98 @@
+"""All pairs of a designation and a type of cage: ``flexcage new`` writes what can be meshed.
+
+Slow: all cages are meshed in truth, as their cases ask, and counted (``pytest -m slow -rP``).
+"""
+
+from __future__ import annotations
+
+import random
+import sys
+from collections import Counter
+from functools import cache
+
+import numpy as np
+import pytest
+
+from flexcage.case.case import load_case
+from flexcage.case.catalogue import designations, find
+from flexcage.case.new import new_case
+from flexcage.core.errors import InputError
+from flexcage.geometry.bearing import BEARING_TYPES
+from flexcage.geometry.cage import cages_of
+from flexcage.mesh import sector
+from flexcage.stages import cage_mesh
+
+MOST = 200_000  # nodes of a cage's mesh that a small machine reduces
+
+
+def pairs() -> list[tuple[str, str]]:
+    found = [(d, BEARING_TYPES[find(d).outline.type].element) for d in designations()]
+    return [(d, cage) for d, element in found for cage in cages_of(element)]
+
+
+@cache
+def written(designation: str, cage: str):
+    """The case, or the sentence why there is none."""
+    try:
+        return load_case(new_case(find(designation).outline, "catalogue", cage=cage).text)
+    except InputError as error:
+        return str(error)
+
+
+def estimated(case) -> float:
+    """Nodes of the quadratic mesh, about, from volume and size as ``sector.generate`` counts
+    elements: 1.4 nodes each."""
+    cage, count = case.cage, case.bearing.element_count
+    thin = cage.thinnest(case.bearing.pitch_diameter, count)
+    ring = 0.25 * np.pi * (cage.outside_diameter**2 - cage.bore**2) * cage.width
+    return 1.4 * sector._PER_CUBE * 0.5 * ring / thin**3
+
+
+SAMPLE = random.Random(7).sample(pairs(), 25)
+
+
+@pytest.mark.parametrize(("designation", "cage"), SAMPLE)
+def test_what_is_proposed_is_of_a_size_that_can_be_meshed(designation, cage):
+    case = written(designation, cage)
+    if isinstance(case, str):
+        assert case.startswith(f"No {cage} cage of usual proportions fits into {designation}: ")
+        assert case.endswith(", the usual one of such bearings.")
+    else:
+        assert estimated(case) < 10 * MOST
+
+
+EXTREME = {
+    (
+        "7212B",
+        "crown",
+    ): "claws could be 0.18 mm thick at most, and a crown cage has claws of at least 1 mm",
+    ("7201A", "crown"): "claws could be 0.1",
+    ("7204A", "ribbon"): "leave no flats between them",
+}
+
+
+@pytest.mark.parametrize("pair", EXTREME)
+def test_pairs_that_do_not_go_together_are_told_the_usual_cage(pair):
+    """Balls of angular contact bearings stand too close for claws and for rivets."""
+    found = written(*pair)
+    assert isinstance(found, str), "it was written"
+    assert EXTREME[pair] in found and found.endswith("take --cage machined, the usual one of such "
+                                                     "bearings.")  # fmt: skip
+
+
+@pytest.mark.slow
+def test_all_that_is_written_is_meshed():
+    """Counts by type of cage, and the largest mesh of each (``-rP`` shows them)."""
+    counts: Counter[tuple[str, str]] = Counter()
+    largest: dict[str, tuple[int, str]] = {}
+    for designation, cage in pairs():
+        case = written(designation, cage)
+        counts[cage, "refused" if isinstance(case, str) else "meshed"] += 1
+        if isinstance(case, str):
+            continue
+        mesh = cage_mesh(case)
+        nodes = 2 * len(mesh.points) + len(mesh.tets)  # of the quadratic elements, nearly
+        largest[cage] = max(largest.get(cage, (0, "")), (nodes, designation))
+        assert nodes < MOST, (designation, cage)
+    sys.stdout.write(f"{dict(counts)}\n{largest}\n")
+    assert all(counts[cage, "meshed"] for cage in largest)

@@ -1,0 +1,83 @@
+"""A name that is nearly right gets a hint, wherever names are asked for; what flexcage has not is
+declined by name; a path with TOML's backslashes is told how to be written."""
+
+from __future__ import annotations
+
+import pytest
+
+from flexcage import load_case, load_static
+from flexcage.core.binding import near_names
+from flexcage.core.errors import InputError
+from flexcage.results.registry import variable
+from flexcage.results.summary import Row, Section, Summary
+
+BEARING = '[bearing]\npreset = "N1013"\n'
+
+
+def said(text, reader=load_case):
+    with pytest.raises(InputError) as caught:
+        reader(text)
+    return str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ('[bearing]\npreset = "n1013"', "the nearest is 'N1013'"),
+        ('[bearing]\npreset = "7010C"', "the nearest is '7010C-PI' or '7010C-PA66'"),
+        ('[bearing]\npreset = "N210"', "'flexcage new N210' writes such a case"),
+        ('[bearing]\npreset = "30205"', "'30205' is a tapered roller bearing"),
+        ('[bearing]\ntype = "needle"', "of needle roller bearings flexcage has none"),
+        ('[bearing]\ntype = "Deep Groove Ball"', "the nearest known one is 'deep_groove_ball'"),
+        (BEARING + '[cage]\nmaterial = "Peek"', "the nearest known one is 'PEEK'"),
+        (BEARING + '[cage]\nmaterial = "pa66 gf30"', "the nearest known one is 'PA66-GF30'"),
+        (BEARING + '[cage]\nPocket_Width = "8 mm"', "the nearest known one is 'pocket_width'"),
+        (BEARING + '[[defects]]\ntype = "CrossBeam"', "the nearest known one is 'crossbeam'"),
+    ],
+)
+def test_a_near_name_gets_a_hint(text, words):
+    assert words in said(text)
+
+
+@pytest.mark.parametrize("reader", [load_case, load_static])
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (BEARING + "[shaft]\nlength = 1", "no shaft that bends"),
+        (BEARING + "[[bearings]]\na = 1", "one single-row bearing a case"),
+        ('temperature = "70 degC"\n' + BEARING, "computes no heat"),
+        (BEARING + '[load]\npreload = "100 N"', "no preload between bearings"),
+        (BEARING + '[lubricant]\ntemperature = "70 degC"', "computes no heat"),
+    ],
+)
+def test_what_flexcage_has_not_is_declined_where_people_look(reader, text, words):
+    assert words in said(text, reader)
+
+
+def test_hints_do_not_depend_on_case_or_strokes():
+    assert near_names("PEEK cf", ["PEEK", "PA66-GF30"], 1) == ["PEEK"]
+    assert near_names("pa66gf30", ["PEEK", "PA66-GF30"], 1) == ["PA66-GF30"]
+    assert near_names("xyz", ["PEEK"]) == []
+
+
+def test_a_summary_names_the_nearest_figure():
+    summary = Summary((Section("Speeds", (Row("cage_speed", "Cage speed", 1.0),)),))
+    with pytest.raises(KeyError) as caught:
+        summary["cage_sped"]
+    text = "The summary has no figure 'cage_sped'; the nearest name is 'cage_speed'."
+    assert str(caught.value) == text
+    with pytest.raises(InputError, match="nearest known name is 'pocket_force'"):
+        variable("Pocket_Forc")
+
+
+@pytest.mark.parametrize(
+    ("path", "words"),
+    [
+        (r"meshes\n1013.msh", r"\n as one; write the path in single quotes, 'meshes\n1013.msh'"),
+        (r"C:\temp\x.msh", r"double quotes a backslash begins a special character"),
+        (r"C:\Users\me\x.msh", "in single quotes, or with '/'"),
+        (r"c:\tools\bodies.msh", r"\t as one; write the path in single quotes, 'c:\tools\bodies.m"),
+    ],
+)
+def test_backslashes_of_a_path_are_explained(path, words):
+    assert words in said(f'{BEARING}[mesh]\nfile = "{path}"\n')
