@@ -100,9 +100,7 @@ class StudyResults:
         row, failure = self.stored.get(planned.hash), self.folder.failure(planned.hash)
         if row is not None:
             wanted = {k: row.figures[k] for k in self.about.outputs if k in row.figures}
-            return ResultRow(
-                planned, "done", "", row.seconds, wanted, row.warnings, row.origin
-            )  # fmt: skip
+            return ResultRow(planned, "done", "", row.seconds, wanted, row.warnings, row.origin)
         if failure is not None:
             return ResultRow(planned, "failed", failure.reason, nan, {})
         return ResultRow(planned, "open", "", nan, {})

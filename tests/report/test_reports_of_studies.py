@@ -54,13 +54,13 @@ SPEEDS = Grid("drive.speed", ["3000 rpm", "6000 rpm", "9000 rpm"])
 
 def test_the_page_of_a_study(tmp_path):
     results = study_folder(
-        tmp_path / "s", LOADS, SPEEDS, repeat=Repeat(count=2), name="<i>mine</i>", fails=(3,),
+        tmp_path / "s", LOADS, SPEEDS, repeat=Repeat(count=2), name="<i>mine", fails=(3,),
         open_=(11,), warned=lambda k: (EXCEEDED,) * (k < 2),
     )  # fmt: skip
     path = results.page(tmp_path / "page.html")
     text = path.read_text("utf-8")
     assert path.stat().st_size < 15e6
-    assert "&lt;i&gt;mine&lt;/i&gt;: report of a study" in text and "<i>mine" not in text
+    assert "&lt;i&gt;mine: report of a study" in text and "<i>mine" not in text
     assert "12 cases: 10 done, 1 failed, 1 open" in text
     assert "Point 1, repetition 1 (radial load = 500 N, drive speed = 6000 rpm) failed" in text
     assert "1 of 12 cases are not computed yet" in text

@@ -86,7 +86,7 @@ def test_an_edited_study_keeps_the_labels_of_what_was_computed(name, done, tmp_p
     edit(done.path / "study.toml", old, new)
     assert cli.main(["study", "report", str(done.path)]) == 0
     shown = capsys.readouterr()
-    assert words in shown.err and words in shown.out
+    assert words in shown.err and words in " ".join(shown.out.split())
     results = StudyResults(done.path)
     table = results.table
     assert list(table["load.radial [N]"]) == [500.0, 1000.0, 2000.0, 3000.0, 4000.0]
@@ -95,7 +95,7 @@ def test_an_edited_study_keeps_the_labels_of_what_was_computed(name, done, tmp_p
     page = results.page(tmp_path / "page.html").read_text("utf-8")
     assert "9000" not in written and "load.radial [N]" in written
     assert "was edited" in page or "was changed" in page
-    assert "load.radial: 500 N, 1000 N, 2000 N, 3000 N, 4000 N." in page
+    assert "500 N, 1000 N, 2000 N, 3000 N, 4000 N" in page
 
 
 def test_an_edited_plan_or_row_is_refused(done, capsys):
@@ -136,7 +136,7 @@ def test_an_edited_study_of_an_earlier_flexcage_is_refused(done, old, new, capsy
     """Its plan has hashes alone; what the cases themselves say decides."""
     as_an_earlier_flexcage(done)
     assert cli.main(["study", "report", str(done.path)]) == 0  # as it was computed
-    assert "Which version of flexcage" in capsys.readouterr().out
+    assert "Which version of flexcage" in " ".join(capsys.readouterr().out.split())
     edit(done.path / "study.toml", old, new)
     assert cli.main(["study", "report", str(done.path)]) == 2
     said = capsys.readouterr().err
@@ -154,7 +154,7 @@ def test_rows_of_different_versions_are_told_apart(done, tmp_path):
     done.write_row(done.case(case.hash), other)
     results = StudyResults(done.path)
     words = "1 by 0.0.9 (kernels aaaaaaaa), 1 by 0.1.0 (kernels ffffffff)"
-    assert words in results.report()
+    assert words in " ".join(results.report().split())
     assert words in results.page(tmp_path / "page.html").read_text("utf-8")
     assert list(results.table["version"])[0].startswith("0.0.9")
 
