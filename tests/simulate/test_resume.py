@@ -176,7 +176,7 @@ def test_a_run_of_another_format_is_refused_wherever_it_is_read(tmp_path, capsys
     case.write_text(case_of("rigid").to_toml(), encoding="utf-8")
     simulate(case_of("rigid"), out=folder)
     commit = folder / "results.zarr" / "_run" / "commit.json"
-    commit.write_text(commit.read_text("utf-8").replace('"format": 5', '"format": 3'), "utf-8")
+    commit.write_text(commit.read_text("utf-8").replace('"format": 6', '"format": 3'), "utf-8")
     (folder / "case.toml").write_text("[bearing]\nformer_word = 1\n", encoding="utf-8")
     other = shutil.copytree(folder, tmp_path / "other")
     for command in (

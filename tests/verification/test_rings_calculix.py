@@ -18,18 +18,18 @@ STORED = json.loads(arcs.STORED.read_text("utf-8"))
 
 @pytest.mark.parametrize("row", STORED["arcs"], ids=lambda row: f"{row['arc_deg']:g} deg")
 def test_load_distribution_on_two_arcs(row):
-    """Arcs that press wherever the ring lies on them: forces of the rollers within 2 % of the
+    """Arcs that press wherever the ring lies on them: forces of the rollers within 3 % of the
     largest, the ring's displacement within 1 %."""
     solution = arcs.ours(row["arc_deg"])
     (ring,) = solution.rings
     own = solution.elements.force[arcs.solved(ring), 1]
     assert solution.displacement[1] == pytest.approx(row["displacement_m"], rel=0.01)
-    assert np.abs(own - row["roller_force_n"]).max() < 0.02 * own.max()
+    assert np.abs(own - row["roller_force_n"]).max() < 0.03 * own.max()
 
 
 def test_how_far_patches_of_rollers_and_strips_of_the_seat_yield():
-    """The free ring, without any law of contact, under loads that are in balance: within 1 % of the
-    largest compliance, and each patch under its own force within 3 %."""
+    """The free ring, without any law of contact, under loads that are in balance: within 0.2 % of
+    the largest compliance, and each roller's patch under its own force within 1 %."""
     (ring,) = arcs.ours(arcs.ARCS[0]).rings
     reduction, rollers = ring.seated.reduction, arcs.rollers(ring)
     middle, width = arcs.strips()
@@ -50,8 +50,8 @@ def test_how_far_patches_of_rollers_and_strips_of_the_seat_yield():
     balanced = np.eye(k + s) - np.outer(cos, cos) / (cos @ cos)
     theirs = balanced @ (1e-3 * np.array(STORED["yields_mm_per_n"])) @ balanced
     own = balanced @ own @ balanced
-    assert np.abs(own - theirs).max() < 0.01 * np.abs(theirs).max()
-    assert np.diag(own) == pytest.approx(np.diag(theirs), rel=0.03)
+    assert np.abs(own - theirs).max() < 0.002 * np.abs(theirs).max()
+    assert np.diag(own)[:k] == pytest.approx(np.diag(theirs)[:k], rel=0.01)
 
 
 def test_approach_from_ball_to_seat():
