@@ -57,7 +57,8 @@ def odd_values(case: StaticCase) -> Iterator[Said]:
 
 def _bodies(case: Any) -> Iterator[tuple[str, Material, tuple[Usual, ...]]]:
     """Key and material of every body that has one, and between what its constants usually are."""
-    yield "bearing.material", case.bearing.material, _RINGS
+    if own := getattr(case.bearing, "material", None):
+        yield "bearing.material", own, _RINGS
     for name in ("inner_ring", "outer_ring"):
         ring = getattr(case, name)
         if ring.bends and ring.material is not None:
@@ -88,14 +89,14 @@ def _text(value: float, unit: str) -> str:
 
 def _rough_races(case: StaticCase) -> Iterator[str]:
     bearing = case.bearing
-    diameter, element = bearing.element_diameter, bearing.element
+    element = bearing.element
     for name, what in (
         ("inner_waviness", "waves of ground races have 0.01 to 5 um"),
         ("outer_waviness", "waves of ground races have 0.01 to 5 um"),
         (f"{element}_scatter", f"{element}s of one bearing differ by less than 2 um"),
     ):
         value = getattr(bearing, name, 0.0)
-        if value > _ROUGHEST * diameter:
+        if value and value > _ROUGHEST * (diameter := bearing.element_diameter):
             yield (
                 f"bearing.{name} is {describe(value, 'um')}, for {element}s of "
                 f"{describe(diameter, 'mm')}: {what}."
@@ -104,7 +105,10 @@ def _rough_races(case: StaticCase) -> Iterator[str]:
 
 def _of_other_steel(case: StaticCase) -> Iterator[Said]:
     """Ratings and raceways of a material that is no bearing steel."""
-    own, steel = case.bearing.material, MATERIALS["GCr15"].plane_strain_modulus
+    own = getattr(case.bearing, "material", None)
+    if own is None:  # of a bearing of one's own
+        return
+    steel = MATERIALS["GCr15"].plane_strain_modulus
     if abs(own.plane_strain_modulus / steel - 1.0) > _STEEL:
         yield (
             OTHER_STEEL,

@@ -37,8 +37,9 @@ class Foresight:
             raise RunFailed(self._sentence(ahead, time, last))
 
     def _sentence(self, ahead: float, time: float, why: str) -> str:
+        many = f"{ahead:,.0f}" if ahead < 1e7 else f"{ahead:.1e}"
         return (
-            f"the run would take about {ahead:.1e} steps, more than solver.max_steps "
+            f"the run would take about {many} steps, more than solver.max_steps "
             f"({self.most:,}): at t = {1e3 * time:.4g} ms of "
             f"{describe(self.duration, 'ms')} {why}; {_REMEDY}"
         )

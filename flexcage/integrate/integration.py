@@ -59,7 +59,6 @@ _REMEMBERED = (
     "pocket_force",
     "pocket_force_before",
 )  # of Events by checkpoints
-LEAK = 0.1  # of the allowed error of work: energy that a step may gain or lose without a work
 LOG_ROWS = EVERY  # steps that are logged at a time
 
 
@@ -107,7 +106,7 @@ class Integration:
         )
         self.state = self.integrator.new_state(
             time, y, yd, weight=weight, h0=step, quad_weight=self.work_weight,
-            modes=self.bearing.modes, leak_weight=self.work_weight[0] / LEAK,
+            modes=self.bearing.modes,
         )  # fmt: skip
         if before is not None:
             self.state.quad[:] = before.quad

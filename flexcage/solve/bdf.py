@@ -7,8 +7,7 @@ c = h/((1 - kappa_k) gamma_k) the corrected value is y = y_p + d and its derivat
 y' = (psi + d)/c. ``advance`` is plain Python that numba also compiles: it
 receives the problem as six functions and their data,
 
-    residual(t, y, yd, data, out, power)     F -> out, quadrature integrands -> power, and behind
-                                             them the energy stored
+    residual(t, y, yd, data, out, power)     F -> out, quadrature integrands -> power
     linearise(t, y, yd, data)                keep dF/dy, dF/dy' at this point
     factor(alpha, data) -> bool              factor dF/dy + alpha dF/dy'
     backsolve(alpha, y, r, data)             r <- -(that)^-1 r, the Newton step
@@ -27,10 +26,6 @@ the steps. (By the trapezoidal rule it missed a share of every fast motion that 
 where a load of kN moves by nanometres, more than the drive did in 2 ms.) The others, losses, which
 begin and end with contacts, take the trapezoidal rule: they must grow, and the formula swings on
 after what stops at once.
-**Energy.** Long steps damp what swings faster than they are; its energy is lost without a power. A
-problem that gives its stored energy behind the integrands has it tested, as ``runge_kutta`` does:
-a step that loses more than is allowed is repeated, shorter. The energy at the corrector's last
-residual only arouses suspicion; it is then evaluated at both accepted points.
 Policies follow IDA's experience: few Jacobians, Newton fails early and cuts the step.
 Stability guard: orders above 2 are left for ``GUARD_STEPS`` steps once the error test fails twice
 within ten steps, the mark of lightly damped fast oscillation.
@@ -64,10 +59,8 @@ KAPPA = (0.0, -0.1850, -1.0 / 9.0, -0.0823, -0.0415, 0.0)  # Shampine and Reiche
 NEWTON_MAX = 4
 GUARD_STEPS = 200
 JACOBIAN_AGE = 60
-# of repetitions for energy's sake: see ``runge_kutta``
-FREE, LEAST, CREDIT, PRICE = 0.125, 3e-4, 400.0, 2.0
 # entries of BDFState.real and .count beyond those of ``contract``
-ALPHA, RATE, H_LAST, LEFT = range(2, 6)
+ALPHA, RATE, H_LAST = range(2, 5)
 ORDER, EQUAL, AGE, HAVE_J, GUARD, RECENT, ITERATIONS, FAILS, BEGUN = range(7, 16)
 
 
@@ -76,14 +69,13 @@ class BDFState(NamedTuple):
 
     D: np.ndarray  # (MAX_ORDER + 3, n) backward differences
     Q: np.ndarray  # (MAX_ORDER + 3, n_quad) those of the integrals; losses have the first row only
-    real: np.ndarray  # (6,) t, h, alpha of the factors, convergence rate, last accepted h, credit
+    real: np.ndarray  # (5,) t, h, alpha of the factors, convergence rate, last accepted h
     count: np.ndarray  # type: ignore[assignment]  # (16,) counters of ``contract``, order and more
     weight: np.ndarray  # (n,) 1/allowed local error; 0: not in the error test
     quad: np.ndarray  # (n_quad,) integrals: the first row of ``Q``
     quad_weight: np.ndarray  # (n_quad,) 1/allowed local error of each; 0: not in the error test
-    leak_weight: np.ndarray  # (1,) 1/(energy [J] that a step may miss); 0: not tested
-    vec: np.ndarray  # (7, n) work
-    power: np.ndarray  # (4, n_quad) integrands at the last, the present and the point before; work
+    vec: np.ndarray  # (6, n) work
+    power: np.ndarray  # (3, n_quad) integrands at the last, the present and the point before
     step: np.ndarray  # (2, n_quad) work: psi and d of the integrals
     coef: np.ndarray  # (3, MAX_ORDER + 1) gamma, (1 - kappa) gamma, error constants
 
@@ -97,9 +89,8 @@ class Options(NamedTuple):
 
 
 def new_state(
-    t0: float, y0, yd0, *, weight, h0: float, quad_weight=(), modes: Any = None,
-    leak_weight: float = 0.0,
-) -> BDFState:  # fmt: skip
+    t0: float, y0, yd0, *, weight, h0: float, quad_weight=(), modes: Any = None
+) -> BDFState:
     """State at the start: order 1, first difference h0 y'. ``modes`` are unknowns like others."""
     n, n_quad = len(y0), len(quad_weight)
     D = np.zeros((MAX_ORDER + 3, n))
@@ -111,9 +102,8 @@ def new_state(
     count, Q = np.zeros(16, np.int64), np.zeros((MAX_ORDER + 3, n_quad))
     count[ORDER] = 1
     return BDFState(
-        D, Q, np.array([t0, h0, 0.0, 1.0, h0, CREDIT]), count, np.array(weight, float), Q[0],
-        np.array(quad_weight, float), np.array([float(leak_weight)]), np.zeros((7, n)),
-        np.zeros((4, n_quad + (leak_weight > 0.0))),
+        D, Q, np.array([t0, h0, 0.0, 1.0, h0]), count, np.array(weight, float), Q[0],
+        np.array(quad_weight, float), np.zeros((6, n)), np.zeros((3, n_quad)),
         np.zeros((2, n_quad)),
         np.stack([gamma, (1.0 - kappa) * gamma, error]),
     )  # fmt: skip
@@ -205,38 +195,11 @@ def allowed(error, order, work):
     return min(max(error, 1e-10) ** (-1.0 / (order + 1)), of_work)
 
 
-def leaked(fns, data, st, t_new, exchanged):
-    """Energy that a step stored beyond what its powers gave it, over what is allowed: 0 where the
-    corrector's last residuals show no more, then by both accepted points. So many integrals, the
-    first ones, are ``exchanged``."""
-    n_quad, allowed_one = st.quad.shape[0], st.leak_weight[0]
-    before, power, spare, count = st.power[0], st.power[1], st.power[3], st.count
-    if allowed_one == 0.0:
-        return 0.0
-    h, given = st.real[H], 0.0
-    for k in range(exchanged):
-        given += st.step[1, k]
-        for j in range(1, count[ORDER] + 1):
-            given += st.Q[j, k]
-    for k in range(exchanged, n_quad):
-        given += 0.5 * h * (before[k] + power[k])
-    if abs(power[n_quad] - before[n_quad] - given) * allowed_one <= 1.0:
-        return 0.0
-    residual, r, y, yd = fns[0], st.vec[5], st.vec[3], st.vec[4]
-    residual(st.real[T], st.D[0], yd, data, r, spare)
-    stored = -spare[n_quad]
-    residual(t_new, y, yd, data, r, spare)
-    stored += spare[n_quad]
-    residual(t_new, st.vec[6], yd, data, r, spare)  # contacts remember this point
-    count[RESIDUALS] += 3
-    return abs(stored - given) * allowed_one
-
-
 def correct(fns, data, st, opt, t_new, c):
     """Newton-Raphson from vec[0] (predictor) with psi in vec[1]; d in vec[2]. True: converged."""
     residual, linearise, factor, backsolve = fns[0], fns[1], fns[2], fns[3]
     y_p, psi, d = st.vec[0], st.vec[1], st.vec[2]
-    y, yd, r, evaluated = st.vec[3], st.vec[4], st.vec[5], st.vec[6]
+    y, yd, r = st.vec[3], st.vec[4], st.vec[5]
     order = st.count[ORDER]
     n = y.shape[0]
     alpha = 1.0 / c
@@ -272,7 +235,6 @@ def correct(fns, data, st, opt, t_new, c):
             st.count[RESIDUALS] += 1
             backsolve(st.real[ALPHA], y, r, data)
             for k in range(n):
-                evaluated[k] = y[k]
                 r[k] *= scale
                 d[k] += r[k]
                 y[k] = y_p[k] + d[k]
@@ -390,19 +352,6 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             real[H] = ratio * h
             count[EQUAL] = 0
             continue
-        leak = leaked(fns, data, st, t_new, exchanged)
-        share = h / opt.h_max
-        if leak > 1.0 and (share > FREE or (share > LEAST and real[LEFT] >= PRICE)):
-            if share <= FREE:
-                real[LEFT] -= PRICE
-            count[ERROR_FAILS] += 1
-            ratio = max(0.25, 0.85 / np.sqrt(leak))
-            change_step(D, Q, order, ratio)
-            real[H] = ratio * h
-            count[EQUAL] = 0
-            continue
-        real[LEFT] = min(real[LEFT] + share, CREDIT)
-        work = max(work, leak)
         # accept
         add_step(D, d, order)
         add_step(Q, d_q, order)
@@ -430,8 +379,6 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             st.quad[k] += 0.5 * h * (before[k] + power[k])
         for k in range(n_quad):
             st.power[2, k], before[k] = before[k], power[k]
-        for k in range(n_quad, power.shape[0]):
-            before[k] = power[k]
         log[row, 0], log[row, 1], log[row, 2] = t_new, h, order
         log[row, 3], log[row, 4] = count[ITERATIONS] - iterations, max(error, work)
         row += 1
@@ -485,7 +432,6 @@ BDF = Integrator(
         "worst",
         "missed",
         "allowed",
-        "leaked",
         "correct",
         "_choose",
     ),

@@ -13,17 +13,11 @@ contact that closes on the way there; so the bend of y' over the step (start les
 adds ``CURVE`` of itself. The step is carried on with order 4. The powers' integrals take the
 weights of the stages, and so have the order and points of the solution, and its estimate.
 
-**Energy.** Where a force jumps or bends within a step, at an edge or as a contact closes, these
-estimates see a small part of what the step misses. A problem that gives its stored energy behind
-the powers has it tested: what a step gains beyond what its powers give it is an error, whatever its
-cause. Only a step that misses more than is allowed is repeated, shorter; others are as they were. A
-force without an energy would fail every step, so such repetitions are on ``CREDIT``.
-
 ``advance`` is plain Python that numba also compiles: it receives the problem as functions and their
 data,
 
     rates(t, y, yd, data, power)         y' -> yd, what follows from y -> the rest of y, quadrature
-                                         integrands -> power, and behind them the energy stored
+                                         integrands -> power
     note(t, y, data)                     the point evaluated last, of this y, was accepted
     sample(sample, t, y, yd, data)       y at sampling time t, by dense output; may complete both
     wanted(sample, data)                 whether the oscillators are of interest at a sampling time
@@ -76,10 +70,7 @@ CURVE = 1.0 / 500.0  # of the bend of y' in the estimate
 REACH = 2.6  # radius of a half-disk inside the stability region, from abs(R(z)) <= 1
 SAFETY, SLOW, FAST = 0.9, 0.3, 4.0  # of the step's control
 AIM, STEADY, SWIFT = 0.1, 0.075, 0.1  # steps aim at this share of the tolerance
-ERROR, LEFT = 2, 3  # further entries of RKState.real: of the last step, 0 before the first; credit
-# steps longer than this share of the longest are repeated for energy's sake freely, others on
-# credit, and below the least share none; price of a repetition, where the longest step earns 1
-FREE, LEAST, CREDIT, PRICE = 0.125, 3e-4, 400.0, 2.0
+ERROR = 2  # further entry of RKState.real: of the last step; 0 before the first
 
 
 class RKState(NamedTuple):
@@ -88,13 +79,12 @@ class RKState(NamedTuple):
     y: np.ndarray  # (n,) at the last accepted point
     K: np.ndarray  # (STAGES, n) y' at the stages; the first is that of y
     Y: np.ndarray  # (2, n) work
-    real: np.ndarray  # (4,) t, next h, error of the last step, credit of repetitions
+    real: np.ndarray  # (3,) t, next h, error of the last step
     count: np.ndarray  # type: ignore[assignment]  # (7,) counters of ``contract``
     weight: np.ndarray  # (n,) 1/allowed local error; 0: not in the error test
     quad: np.ndarray  # (n_quad,) integrals
     quad_weight: np.ndarray  # (n_quad,) 1/allowed local error of each; 0: not in the error test
-    power: np.ndarray  # (STAGES, n_quad) integrands; with the energy stored behind if it is tested
-    leak_weight: np.ndarray  # (1,) 1/(energy [J] that a step may miss); 0: not tested
+    power: np.ndarray  # (STAGES, n_quad) integrands
     modes: Oscillators  # m of the unknowns' pairs
     drive: np.ndarray  # (STAGES, m) what drives them at the stages
     turn: np.ndarray  # (3, 2, m) their z: at the last point, at the second stage, elsewhere
@@ -108,18 +98,15 @@ class Options(NamedTuple):
 
 
 def new_state(
-    t0: float, y0, yd0, *, weight, h0: float, quad_weight=(), modes: Oscillators | None = None,
-    leak_weight: float = 0.0,
-) -> RKState:  # fmt: skip
+    t0: float, y0, yd0, *, weight, h0: float, quad_weight=(), modes: Oscillators | None = None
+) -> RKState:
     """State at the start; y' is computed from y."""
     n, n_quad, modes = len(y0), len(quad_weight), modes or no_oscillators()
     m = len(modes.decay)
     return RKState(
-        np.array(y0, float), np.zeros((STAGES, n)), np.zeros((2, n)),
-        np.array([t0, h0, 0.0, CREDIT]),
+        np.array(y0, float), np.zeros((STAGES, n)), np.zeros((2, n)), np.array([t0, h0, 0.0]),
         np.zeros(7, np.int64), np.array(weight, float), np.zeros(n_quad),
-        np.array(quad_weight, float), np.zeros((STAGES, n_quad + (leak_weight > 0.0))),
-        np.array([float(leak_weight)]), modes, np.zeros((STAGES, m)),
+        np.array(quad_weight, float), np.zeros((STAGES, n_quad)), modes, np.zeros((STAGES, m)),
         np.zeros((3, 2, m)), np.zeros((2, ROWS, m)),
     )  # fmt: skip
 
@@ -144,16 +131,6 @@ def missed(h, power, weight):
         total += x  # carries whatever is not a number
         most = max(most, x)
     return most if total <= 1e300 else np.inf
-
-
-def leaked(h, power, n_quad, weight):
-    """Energy that a step stored beyond what its powers gave it, over what is allowed."""
-    if weight == 0.0:
-        return 0.0
-    given = 0.0
-    for k in range(n_quad):
-        given += (power[0, k] + power[3, k]) / 6.0 + (power[1, k] + power[2, k]) / 3.0
-    return abs(power[4, n_quad] - power[0, n_quad] - h * given) * weight
 
 
 def hermite(x, h, y0, f0, y1, f1, y, yd):
@@ -230,15 +207,6 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             finite = error < np.inf
             real[H] = h * max(SLOW, SAFETY * error**-0.25)
             continue
-        leak = leaked(h, power, st.quad.shape[0], st.leak_weight[0])
-        share = h / opt.h_max
-        if leak > 1.0 and (share > FREE or (share > LEAST and real[LEFT] >= PRICE)):
-            if share <= FREE:
-                real[LEFT] -= PRICE
-            count[ERROR_FAILS] += 1
-            real[H] = h * max(SLOW, SAFETY / np.sqrt(leak))
-            continue
-        real[LEFT] = min(real[LEFT] + share, CREDIT)
         real[T] = t_new
         count[STEPS] += 1
         count[EXPLICIT] += 1
@@ -261,7 +229,6 @@ def advance(fns, data, st, opt, t_end, times, ys, yds, first, log, quads):
             sample += 1
         for k in range(st.quad.shape[0]):
             st.quad[k] += sixth * (power[0, k] + power[3, k]) + third * (power[1, k] + power[2, k])
-        for k in range(power.shape[1]):
             power[0, k] = power[4, k]
         for k in range(n):
             y[k] = stage[k]
@@ -333,7 +300,6 @@ EXPLICIT_METHOD = Integrator(
     helpers=(
         "largest",
         "missed",
-        "leaked",
         "hermite",
         "step_weights",
         "find_turns",

@@ -177,6 +177,11 @@ class MapResults:
     def __init__(self, path: str | Path) -> None:
         self.study = StudyResults(path)
         file = self.study.folder.path / FILE
+        if not file.is_file():
+            raise InputError(
+                f"'{self.study.folder.path}' does not hold a map; 'flexcage study map' makes one.",
+                where="path", value=str(path),
+            )  # fmt: skip
         try:
             self.about: dict[str, Any] = json.loads(file.read_text("utf-8"))
             if self.about["format"] != FORMAT:

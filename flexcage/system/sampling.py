@@ -22,17 +22,12 @@ from flexcage.system.layout import DRIVE_TORQUE, INNER_TURN, MODES, PER_ELEMENT,
 @part
 def give_powers(t, y, d, power):
     """Powers of the last report into ``power``, if it has room, and by (t, y) those of loads and
-    constraints; behind them the energy stored, if there is room for that."""
+    constraints."""
     if power.shape[0] == 0:
         return
     report = fields(d.report)
-    for k in range(report.power.shape[0]):
+    for k in range(power.shape[0]):
         power[k] = report.power[k]
-    if power.shape[0] > report.power.shape[0]:
-        stored = 0.0
-        for k in range(report.energy.shape[0]):
-            stored += report.energy[k]
-        power[report.power.shape[0]] = stored
     Z, nm = fields(d.bodies).radius.shape[0], fields(d.pocket).phi_max.shape[0]
     at = places(Z, nm)
     u = at.rest_u

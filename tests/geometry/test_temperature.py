@@ -102,9 +102,9 @@ def test_a_users_modulus_is_scaled():
             {"cage.temperature": "80 degC", "cage.material": "polyimide"},
             "no modulus of polyimide over temperature is known; leave it out",
         ),
-        ({"cage.temperature": "-300 degC"}, "must be greater than -273.15 degC"),
+        ({"cage.temperature": "-300 degC"}, "below absolute zero, -273.15 degC"),
         ({"cage.temperature": "80"}, "is 80 without a unit"),
-        ({"cage.temperature": "80 C"}, "of another kind than degC"),
+        ({"cage.temperature": "80 C"}, "is 'degC' meant"),
         ({"cage.temperature": "1e4 degC"}, "must be 9726.85 degC or less"),
     ],
 )

@@ -1,5 +1,6 @@
 """Every picture is written, has its size, is not blank, and shows what it should."""
 
+import errno
 import sys
 import threading
 from dataclasses import replace
@@ -393,11 +394,15 @@ def test_no_backend_is_a_sentence(field, tmp_path, monkeypatch):
         render.stress_picture(nodes, cells, u, stress, tmp_path / "x.png")
 
 
-def test_a_full_disk_is_no_mistake_in_the_input(run, tmp_path):
-    picture = tmp_path / "h.png"
-    picture.symlink_to("/dev/full")
-    with pytest.raises(RunFailed, match=r"picture .*h.png' cannot be written: the disk is full"):
-        render.histories(run, picture)
+def test_a_full_disk_is_no_mistake_in_the_input(run, tmp_path, monkeypatch):
+    def full(*_):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    with monkeypatch.context() as disk:
+        disk.setattr("flexcage.core.writing.os.replace", full)
+        with pytest.raises(RunFailed, match=r"picture .*h.png' cannot be written: the disk is"):
+            render.histories(run, tmp_path / "h.png")
+    assert not list(tmp_path.iterdir())
     (tmp_path / "file").write_text("")
     with pytest.raises(InputError, match="cannot be written"):
         render.histories(run, tmp_path / "file" / "h.png")

@@ -57,7 +57,7 @@ def test_its_page(folder, capsys):
     for said in (
         "7010C, an angular contact ball bearing",
         "pocket 5 is displaced by 0.3 mm towards pocket 6",
-        "ball passes and", "Stress at a waist or rim, peak of a pass",
+        "Stress at a waist or rim, peak of a pass",
         "Stress at waists and rims of pockets", "Ball speed about its own axis, cage frame",
         "Contact angles", "Orbit of the cage", "Contact angle, inner race",
     ):  # fmt: skip

@@ -101,3 +101,9 @@ def when_written(folder: Path) -> dict[str, int]:
     """When the row of every finished case was written, by hash."""
     rows = (p for p in folder.glob("cases/*/row.json") if p.parent.suffix != ".part")
     return {p.parent.name: p.stat().st_mtime_ns for p in rows}
+
+
+def without_warnings(complained: str) -> str:
+    """What a command wrote to stderr beside warnings of what its cases foresee."""
+    lines = complained.splitlines(keepends=True)
+    return "".join(line for line in lines if not line.startswith("warning: "))

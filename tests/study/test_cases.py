@@ -118,7 +118,7 @@ def test_cases_with_the_same_cage_derive_from_it_once(folder, monkeypatch):
 
 def other_format(part):
     commit = part / "results.zarr" / "_run" / "commit.json"
-    commit.write_text(commit.read_text().replace('"format": 5', '"format": 3'))
+    commit.write_text(commit.read_text().replace('"format": 6', '"format": 3'))
 
 
 def other_checkpoint(part):

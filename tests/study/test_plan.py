@@ -329,7 +329,8 @@ def test_a_scheduler_that_does_not_answer(tmp_path, capsys, monkeypatch):
             command = ["study", "run", str(file), "-o", str(tmp_path / "out")]
             assert cli.main([*command, "--scheduler", address]) == 2
             err = capsys.readouterr().err
-            assert f"No scheduler answers at '{address}'" in err and err.count("\n") == 1
+            assert f"No scheduler answers at '{address}'" in err
+            assert [line[:9] for line in err.splitlines()] == ["warning: ", "flexcage:"]
 
 
 def test_a_missing_package_is_named(tmp_path, capsys, monkeypatch):

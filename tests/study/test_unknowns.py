@@ -76,7 +76,7 @@ def test_a_larger_sample_begins_with_the_smaller_one():
 
 def test_without_salib_one_sentence_says_what_to_install(monkeypatch):
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
-    with pytest.raises(EnvironmentLacks, match=r"not installed here; .*flexcage\[sensitivity\]"):
+    with pytest.raises(EnvironmentLacks, match=r"not installed here; .*'\.\[sensitivity\]'"):
         design_of("morris", 4, 3, 1)
     with pytest.raises(EnvironmentLacks, match="SALib"):
         sensitivity.indices("sample", np.zeros((16, 2)), "ab", np.zeros(16))

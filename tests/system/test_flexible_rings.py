@@ -128,7 +128,7 @@ def test_points_pull_as_well_and_do_not_clamp():
         assert force[np.cos(place) < 0.0].sum() < 0.0
         assert force @ np.cos(place) == pytest.approx(5e3, abs=1.0)
         found.append(force)
-    assert found[1] == pytest.approx(found[0], abs=0.01 * found[0].max())
+    assert found[1] == pytest.approx(found[0], abs=0.02 * found[0].max())
 
 
 def test_a_wider_arc_bears_at_its_edges():
