@@ -30,7 +30,7 @@ from flexcage.core.errors import InputError, unwritable
 from flexcage.core.hashing import seal_holds, sealed
 from flexcage.core.locks import LOCK, held
 from flexcage.core.warning import RunWarning
-from flexcage.core.writing import check_own, replace
+from flexcage.core.writing import check_own, replace, sync
 from flexcage.study.about import About, base_of, from_store, to_store
 from flexcage.study.origin import Origin, stored_origin
 from flexcage.study.outputs import Figure
@@ -226,11 +226,11 @@ class Folder:
         _write_json(part / "zarr.json", _ZARR_GROUP)
         for file in part.iterdir():
             if file.is_file():
-                _sync(file)
+                sync(file)
         if self.case(name).exists():  # its figures alone had been kept, and more are wanted
             shutil.rmtree(self.case(name))
         os.rename(part, self.case(name))
-        _sync(self.cases)
+        sync(self.cases)
         self.reason(name).unlink(missing_ok=True)
 
     def write_failure(self, name: str, failure: Failure) -> None:
@@ -277,11 +277,3 @@ def _lacks(path: Path, what: str) -> InputError:
         where="study",
         value=str(path),
     )
-
-
-def _sync(path: Path) -> None:
-    handle = os.open(path, os.O_RDONLY)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)
