@@ -1,0 +1,81 @@
+"""Blocks whose energy does not balance are computed again, with a tighter tolerance.
+
+An error estimate sees what happens at a step's ends: a gap that closes and opens within a step, a
+wall that begins there, or fast motion that long steps of a BDF damp, can pass below it. The books
+tell: what is stored must be what was put in. Where a run's imbalance has used up ``TAKEN`` of what
+the audit allows, and the last block's own share is as large, that block is done again from its
+start with ``TIGHTER`` of the tolerance, at most ``AGAIN`` times in a row. The next blocks keep the
+tolerance until one needs less than ``SPARE`` of what it may.
+"""
+
+from __future__ import annotations
+
+from math import inf
+from typing import NamedTuple
+
+import numpy as np
+
+from flexcage.results.audit import OF_CAGE, OF_DRIVE, ROUNDING, Ledger, ledger, shares
+from flexcage.results.registry import ENERGIES
+from flexcage.results.store import MemoryRunStore
+from flexcage.system.data import POWERS
+
+TAKEN, SPARE = 0.5, 0.03
+TIGHTER, AGAIN = 0.1, 2
+
+
+class Weighed(NamedTuple):
+    """What a block did to the balance: it must be done ``over``, or had room to ``spare``."""
+
+    over: bool
+    spare: bool
+
+
+NEITHER = Weighed(over=False, spare=False)
+
+
+class Balance:
+    """The books of a run, from those of the blocks that its store has."""
+
+    def __init__(self, store: MemoryRunStore) -> None:
+        n = store.layout.n_time
+        self._book = Ledger(np.zeros(n), np.zeros((n, 2)), np.zeros(n), np.zeros(n))
+        self._kept = min(store.blocks * store.layout.block, n)
+        if self._kept:
+            ds = store.dataset()
+            parts = (ds[k].transpose("time", ...).values for k in ("energy", "work"))
+            self._enter(*(part[: self._kept] for part in parts), 0)
+
+    def _enter(self, stored: np.ndarray, work: np.ndarray, first: int) -> int:
+        entries = ledger(stored, work, ENERGIES, POWERS)
+        last = first + len(stored)
+        for column, values in zip(self._book, entries, strict=True):
+            column[first:last] = values
+        return last
+
+    def weigh(self, stored: np.ndarray, work: np.ndarray) -> Weighed:
+        """Weigh the next block, of energies (n, kinds) and works (n, channels) [J]."""
+        first, last = self._kept, self._enter(stored, work, self._kept)
+        run = Ledger(*(column[:last] for column in self._book))
+        own = Ledger(*(column[max(first - 1, 0) : last] for column in self._book))
+        moved = float(run.elastic.max() + np.abs(run.drive[-1] - run.drive[0]).sum())
+        spent = _spent(own)
+        over = any(
+            share > TAKEN * bound and part > TAKEN * bound
+            for share, part, bound in zip(
+                shares(run, ROUNDING * moved), spent, (OF_DRIVE, OF_CAGE), strict=True
+            )
+        )
+        return Weighed(over, spent[0] < SPARE * OF_DRIVE)
+
+    def keep(self, samples: int) -> None:
+        """Go on behind the block of so many samples that was weighed last."""
+        self._kept += samples
+
+
+def _spent(own: Ledger) -> tuple[float, float]:
+    """A block's own imbalance over what the drive did in it, and over what the cage lost."""
+    gap = float(np.abs(own.gap - own.gap[0]).max())
+    drive = float(np.abs(own.drive[-1] - own.drive[0]).sum())
+    lost = float(own.spent[0] - own.spent[-1])
+    return gap / drive if drive > 0.0 else inf, gap / lost if lost > 0.0 else inf
