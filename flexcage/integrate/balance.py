@@ -20,7 +20,8 @@ from flexcage.results.registry import ENERGIES
 from flexcage.results.store import MemoryRunStore
 from flexcage.system.data import POWERS
 
-TAKEN, SPARE = 0.5, 0.03
+BOUNDS = (OF_DRIVE, OF_CAGE)
+TAKEN, SPARE = 0.8, 0.1
 TIGHTER, AGAIN = 0.1, 2
 
 
@@ -59,23 +60,24 @@ class Balance:
         run = Ledger(*(column[:last] for column in self._book))
         own = Ledger(*(column[max(first - 1, 0) : last] for column in self._book))
         moved = float(run.elastic.max() + np.abs(run.drive[-1] - run.drive[0]).sum())
-        spent = _spent(own)
-        over = any(
-            share > TAKEN * bound and part > TAKEN * bound
-            for share, part, bound in zip(
-                shares(run, ROUNDING * moved), spent, (OF_DRIVE, OF_CAGE), strict=True
-            )
-        )
-        return Weighed(over, spent[0] < SPARE * OF_DRIVE)
+        of_run = (s / b for s, b in zip(shares(run, ROUNDING * moved), BOUNDS, strict=True))
+        of_own, touched = _own_shares(own)
+        over = any(r > TAKEN and o > TAKEN for r, o in zip(of_run, of_own, strict=True))
+        return Weighed(over, max(of_own if touched else of_own[:1]) < SPARE)
 
     def keep(self, samples: int) -> None:
         """Go on behind the block of so many samples that was weighed last."""
         self._kept += samples
 
 
-def _spent(own: Ledger) -> tuple[float, float]:
-    """A block's own imbalance over what the drive did in it, and over what the cage lost."""
+def _own_shares(own: Ledger) -> tuple[tuple[float, float], bool]:
+    """A block's own imbalance over the bounds that the drive's work and the cage's losses in it
+    give, and whether the cage lost enough to be judged by that."""
     gap = float(np.abs(own.gap - own.gap[0]).max())
     drive = float(np.abs(own.drive[-1] - own.drive[0]).sum())
     lost = float(own.spent[0] - own.spent[-1])
-    return gap / drive if drive > 0.0 else inf, gap / lost if lost > 0.0 else inf
+    of_drive, of_cage = (
+        gap / (bound * work) if work > 0.0 else inf
+        for bound, work in zip(BOUNDS, (drive, lost), strict=True)
+    )
+    return (of_drive, of_cage), lost > OF_DRIVE * drive
