@@ -44,8 +44,8 @@ class Balance:
         self._kept = min(store.blocks * store.layout.block, n)
         if self._kept:
             ds = store.dataset()
-            parts = (ds[k].transpose("time", ...).values for k in ("energy", "work"))
-            self._enter(*(part[: self._kept] for part in parts), 0)
+            energy, work = (ds[k].transpose("time", ...).values for k in ("energy", "work"))
+            self._enter(energy[: self._kept], work[: self._kept], 0)
 
     def _enter(self, stored: np.ndarray, work: np.ndarray, first: int) -> int:
         entries = ledger(stored, work, ENERGIES, POWERS)
