@@ -30,8 +30,8 @@ RARE = "rare"
 BRIEF, LARGE, EFFORT = "brief", "large", "effort"
 SETTLING, CONVERGENCE = "settling", "convergence"
 
-#: What ``drift`` says where no figure does; the second in summaries of an earlier flexcage.
-NO_DRIFT = ("none", "nothing")
+#: What ``drift`` says where no figure does.
+NO_DRIFT = "none"
 
 #: Words of titles that depend on the bearing or its cage, and what stands for them in a list.
 WORDS = {"Element": "Element", "Faces": "Pocket faces", "place": "a corner or edge",
