@@ -16,6 +16,7 @@ from flexcage.core.stopping import unwinding
 from flexcage.run.foreseen import tell
 from flexcage.study.cluster import connect, require_packages
 from flexcage.study.folder import Failure, Folder
+from flexcage.study.origin import check_origins
 from flexcage.study.outputs import beyond_summary, lacking, needs_stress
 from flexcage.study.plan import Plan, Planned, make_plan
 from flexcage.study.results import StudyResults
@@ -36,23 +37,28 @@ def run_study(
     workers: int | None = None,
     scheduler: Any = None,
     retry: bool = False,
+    other_version: bool = False,
     progress: Callable[..., Any] | None = None,
 ) -> StudyResults:
     """Compute what the folder ``out`` lacks of a study, and gather its tables.
 
     Runs on ``workers`` processes of this machine (default: one a core), or on a Dask ``scheduler``,
     by its address or as a Dask cluster, whose certificates are then taken. Cases found in the
-    folder are not computed again; ``retry`` tries those again that failed. ``progress`` is a
-    context like ``core.progress.Progress``. One process at a time runs a study in a folder.
+    folder are not computed again; ``retry`` tries those again that failed, and ``other_version``
+    adds cases to those that a flexcage of other physics computed, which table and page then say.
+    ``progress`` is a context like ``core.progress.Progress``. One process at a time runs a study in
+    a folder.
 
-    A case that fails is a row with its reason. Raises InputError for a mistake in the plan, or a
-    folder in which another process runs a study, before anything is computed, and RunFailed if the
-    scheduler is lost; what is finished stays, and the tables show it.
+    A case that fails is a row with its reason. Raises InputError for a mistake in the plan, a
+    folder in which another process runs a study, or one whose cases are of other physics, before
+    anything is computed, and RunFailed if the scheduler is lost; what is finished stays, and the
+    tables show it.
     """
     expect(study, Study, "study", "flexcage.load_study reads one from a file")
     require_packages()
     plan = make_plan(study)
     folder = Folder(Path(out).resolve())
+    check_physics(plan, folder, allowed=other_version)
     folder.prepare(plan)
     with folder.held():
         todo = _lacking(plan, folder, retry=retry)
@@ -103,6 +109,16 @@ def _try_to_write(folder: Folder) -> None:
         StudyResults(folder.path).write()
     except Exception as exc:
         log.warning("the tables were not written: %s", exc)
+
+
+def check_physics(plan: Plan, folder: Folder, *, allowed: bool) -> None:
+    """Refuse, or say, that cases of a plan would join finished ones of other physics."""
+    rows = {planned.hash: folder.row(planned.hash) for planned in plan.cases}
+    done = [row.origin for row in rows.values() if row is not None]
+    beyond = beyond_summary(plan.study.outputs)
+    new = sum(row is None or bool(lacking(beyond, row.figures)) for row in rows.values())
+    if mixed := check_origins(done, new=new, folder=folder.path, allowed=allowed):
+        log.warning(mixed)
 
 
 def _lacking(plan: Plan, folder: Folder, *, retry: bool) -> set[str]:
