@@ -20,9 +20,17 @@ from flexcage.core.timing import Stages
 from flexcage.core.warning import RunWarning
 from flexcage.integrate.recorded import new_store
 from flexcage.results import room
-from flexcage.results.cage_file import FORMAT, CageFile, cage_file, cage_record, check_same
+from flexcage.results.cage_file import (
+    FORMAT,
+    CageFile,
+    cage_file,
+    cage_record,
+    check_same,
+    find_cage,
+)
 from flexcage.results.store import MemoryRunStore
 from flexcage.results.warnings import to_text
+from flexcage.run.cage_sizes import check_sizes
 from flexcage.run.folder import check_links, keep_cage, kept_cage, write_case
 from flexcage.stages import Cage, made_cage
 from flexcage.system.problem import Bearing
@@ -67,6 +75,8 @@ def stored_cage(case: Case, store: MemoryRunStore, folder: Path, stages: Stages)
     another one.
     """
     record = stages.named("cage", kept_cage, folder, store)
+    modes = store.layout.coords.get("mode", ((), ()))[1]
+    check_sizes(record, case, len(modes), find_cage(folder, record.digest))
     if record.mesh is None:
         mesh, made = made_cage(case, stages)
         assert made is not None, "a rigid cage keeps its mesh"
