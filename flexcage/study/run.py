@@ -12,7 +12,7 @@ from flexcage.core.binding import expect
 from flexcage.core.errors import RunFailed
 from flexcage.core.hashing import content_hash
 from flexcage.core.progress import Silent
-from flexcage.core.stopping import unwinding
+from flexcage.core.stopping import check, unwinding
 from flexcage.run.foreseen import tell
 from flexcage.study.cluster import connect, require_packages
 from flexcage.study.folder import Failure, Folder
@@ -28,6 +28,7 @@ log = logging.getLogger(__name__)
 
 AHEAD = 3  # cases handed out per worker: one runs, the others wait beside it
 _LOOK = 1.0  # s between two looks at how many workers there are
+_WAIT = 0.05  # s between two looks at what has come back
 
 
 def run_study(
@@ -145,6 +146,7 @@ class _Desk:
         self._modes: dict[str, Any] = {}  # futures of modes that cases share, by key
         self._names: dict[str, str] = {}  # hash of a case by the key of its future
         self._window, self._looked = 1, -_LOOK
+        self._back: list[Any] = []  # futures that have come back and wait to be taken
 
     def work_off(self, todo: set[str]) -> Iterator[str]:
         """Hash of every case of ``todo``, as it comes back."""
@@ -154,10 +156,10 @@ class _Desk:
         # those that share modes one after the other, so that the cache need not hold them all
         cases = (planned for planned in self.plan.cases if planned.hash in todo)
         for planned in sorted(cases, key=lambda planned: planned.modes):
-            while out.count() >= self._room():
+            while out.count() + len(self._back) >= self._room():
                 yield self._take(out)
             out.add(self._submit(planned))
-        while out.count():
+        while out.count() or self._back:
             yield self._take(out)
 
     def _room(self) -> int:
@@ -186,7 +188,12 @@ class _Desk:
 
     def _take(self, out: Any) -> str:
         """Wait for the next case that comes back; its hash."""
-        future = next(out)
+        while not self._back:
+            check()
+            self._back += out.next_batch(block=False)
+            if not self._back:
+                time.sleep(_WAIT)
+        future = self._back.pop(0)
         name = self._names.pop(future.key)
         if future.status == "error":
             error = future.exception()
