@@ -167,6 +167,7 @@ class Integration:
                 self._block(self.store.blocks)
                 assert self.store.n_time > before, "a block that ends where it began"
                 bar.to(self.time)
+                self._foresight.pace(self.time)
 
     def _block(self, index: int) -> None:
         ratio, layout = self.output.vibration_ratio, self.bearing.layout

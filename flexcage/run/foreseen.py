@@ -47,6 +47,11 @@ def foreseen(case: Case, *, stress: bool = True) -> tuple[RunWarning, ...]:
     return (*found, *(_coarse(case) if stress else ()))
 
 
+def told_already() -> bool:
+    """Is this run one of several that were told of at once?"""
+    return _told.get()
+
+
 def told_before(case: Case, *, stress: bool) -> tuple[RunWarning, ...]:
     """What is foreseen of a run, logged unless it was with that of others (``told_at_once``)."""
     found = foreseen(case, stress=stress)

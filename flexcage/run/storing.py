@@ -19,7 +19,6 @@ from flexcage.core.sources import physics
 from flexcage.core.timing import Stages
 from flexcage.core.warning import RunWarning
 from flexcage.integrate.recorded import new_store
-from flexcage.results import room
 from flexcage.results.cage_file import (
     FORMAT,
     CageFile,
@@ -53,7 +52,6 @@ def run_store(
     }  # fmt: skip
     if folder is not None:
         check_links(folder)
-        announce_room(case, bearing, folder)
         write_case(folder, case)
         file = _cage_file(case, cage)
         keep_cage(folder, file, study=study)
@@ -110,12 +108,3 @@ def _cage_file(case: Case, cage: Cage) -> CageFile:
     key = content_hash(FORMAT, reduction.content, BODY_VERSION, case.modes, large)
     kept = reduction.once(f"file {key}", lambda: cached_arrays("cage", key, make))
     return CageFile(str(kept["digest"]), kept["content"])
-
-
-def announce_room(case: Case, bearing: Bearing, folder: Path) -> None:
-    """Say how much room the results will take; EnvironmentLacks if there cannot be enough."""
-    output = case.output
-    recording = recording_of(case.bearing)
-    short = new_store(None, bearing, recording, duration=0.0, output=output, attrs={})
-    rate = room.expected_rate(short.layout, output.rate, output.vibration_rate)
-    room.announce(folder, rate, case.solver.duration)

@@ -13,8 +13,9 @@ from flexcage.core.errors import RunFailed
 from flexcage.core.hashing import content_hash
 from flexcage.core.progress import Silent
 from flexcage.core.stopping import check, unwinding
+from flexcage.run.cost import Cost
 from flexcage.run.foreseen import tell
-from flexcage.study.cluster import connect, require_packages
+from flexcage.study.cluster import connect, default_workers, require_packages
 from flexcage.study.folder import Failure, Folder
 from flexcage.study.origin import check_origins
 from flexcage.study.outputs import beyond_summary, lacking, needs_stress
@@ -65,7 +66,7 @@ def run_study(
         todo = _lacking(plan, folder, retry=retry)
         try:
             if todo:
-                _tell_before(plan, todo)
+                _tell_before(plan, folder, todo, (scheduler, workers))
                 with unwinding():  # Ctrl-C ends the workers
                     _compute(plan, folder, todo, (scheduler, workers), progress)
         except BaseException:  # Ctrl-C as well: the tables show what is finished
@@ -76,10 +77,23 @@ def run_study(
     return results
 
 
-def _tell_before(plan: Plan, todo: set[str]) -> None:
-    """Log what is foreseen of the cases to compute."""
-    cases = (plan.case(planned) for planned in plan.cases if planned.hash in todo)
+def _tell_before(plan: Plan, folder: Folder, todo: set[str], where: tuple[Any, int | None]) -> None:
+    """Log what is foreseen of the cases to compute, and what disk and time they will take."""
+    cost = Cost()
+    cases = (cost.counted(plan.case(planned)) for planned in plan.cases if planned.hash in todo)
     tell(cases, stress=needs_stress(plan.study.outputs))
+    scheduler, workers = where
+    if scheduler is None:
+        crew = min(workers or default_workers(), len(todo))
+        kept = folder.path if plan.study.keep == "runs" else None
+        cost.tell(kept, workers=crew, each=_seconds_each(plan, folder))
+
+
+def _seconds_each(plan: Plan, folder: Folder) -> float | None:
+    """Processor time [s] of a case, by those that are done; None before the first."""
+    rows = (folder.row(planned.hash) for planned in plan.cases)
+    seconds = [row.seconds for row in rows if row is not None]
+    return sum(seconds) / len(seconds) if seconds else None
 
 
 def _compute(
