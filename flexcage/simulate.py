@@ -17,8 +17,9 @@ from flexcage.core.timing import Stages
 from flexcage.integrate.integration import Integration
 from flexcage.results.store import MemoryRunStore
 from flexcage.run import Run, warnings_at_start
+from flexcage.run.cost import note_pace, told_cost
 from flexcage.run.folder import begun_store, check_written, open_folder
-from flexcage.run.foreseen import told_before
+from flexcage.run.foreseen import told_already, told_before
 from flexcage.run.storing import run_store, stored_cage
 from flexcage.stages import assembled_start, made_cage
 
@@ -63,6 +64,8 @@ def _simulated(
 ) -> Run:
     stages = Stages(progress)
     foreseen = told_before(case, stress=stress)
+    if not begun:
+        told_cost(case, folder, quiet=told_already())
     compiling = begin_compiling(case)
     if folder and begun:
         mesh, cage = stored_cage(case, begun, folder, stages)
@@ -78,7 +81,9 @@ def _simulated(
     integration = Integration(
         bearing, recording_of(case.bearing), start, store, solver=case.solver, output=case.output
     )
+    from_time = integration.time
     stages("solve", integration.march, progress)
+    note_pace(case, stages["solve"], integration.time - from_time)
     return run.finish(integration.effort, stress=stress)
 
 

@@ -73,7 +73,12 @@ def _add_converge(commands: Any) -> None:
     )
     study.add_argument("--duration", metavar="TIME", help="bearing time of each run, as '40 ms'")
     study.add_argument("-o", "--out", metavar="DIR", help="folder (default: runs/NAME-converge)")
-    study.add_argument("--force", action="store_true", help="repeat runs that are there already")
+    again = study.add_mutually_exclusive_group()
+    again.add_argument("--force", action="store_true", help="repeat runs that are there already")
+    again.add_argument(
+        "--other-version", action="store_true",
+        help="compare with runs that a flexcage of other physics computed",
+    )  # fmt: skip
 
 
 def run_command(args: argparse.Namespace) -> int:
@@ -173,7 +178,7 @@ def converge_command(args: argparse.Namespace) -> int:
     goes_on = (out / "cases").is_dir() and not args.force
     if not goes_on:
         prepare_out(out, resume=False, force=args.force, resumable=False)
-    say(converge(case, out=out, axes=axes, progress=Progress))
+    say(converge(case, out=out, axes=axes, other_version=args.other_version, progress=Progress))
     say(f"\nThe table, its picture and the runs are in {out}")
     return 0
 

@@ -27,6 +27,7 @@ def add_commands(commands: Any) -> None:
         where.add_argument("--workers", type=_count, metavar="N", help="processes (default: cores)")
         where.add_argument("--scheduler", metavar="ADDRESS", help="a running Dask scheduler")
         parser.add_argument("--retry", action="store_true", help="try failed cases again")
+        _other_version(parser)
     unknowns = command(actions, "map", study_map_command, "sample unknowns, and say what decides")
     unknowns.add_argument("map", metavar="MAP", help="map file (.toml)")
     unknowns.add_argument("-o", "--out", metavar="DIR", help="map folder (default: runs/NAME)")
@@ -34,6 +35,7 @@ def add_commands(commands: Any) -> None:
     unknowns.add_argument(
         "--set", action="append", metavar="PATH=VALUE", help="change a value of the base case"
     )
+    _other_version(unknowns)
     for name, function, text in (
         ("status", study_status_command, "count what is done, failed and open"),
         ("report", study_report_command, "print and write the table"),
@@ -53,6 +55,13 @@ def add_commands(commands: Any) -> None:
     surface.add_argument(
         "--matters", type=_percent, metavar="P%", default=0.05,
         help="least range of interest, of the mean (default: 5%%)",
+    )  # fmt: skip
+
+
+def _other_version(parser: Any) -> None:
+    parser.add_argument(
+        "--other-version", action="store_true",
+        help="add to cases that a flexcage of other physics computed",
     )  # fmt: skip
 
 
@@ -93,7 +102,7 @@ def compute_study(study: Any, args: argparse.Namespace) -> int:
 
     results = run_study(
         study, out=args.out, workers=args.workers, scheduler=args.scheduler, retry=args.retry,
-        progress=Progress,
+        other_version=args.other_version, progress=Progress,
     )  # fmt: skip
     say(results.report())
     say(f"\nThe study is in {args.out}")
@@ -108,7 +117,9 @@ def study_map_command(args: argparse.Namespace) -> int:
 
     spec = load_map(args.map, overrides=settings_of(args))
     out = Path(args.out) if args.out else Path("runs") / spec.name
-    results = run_map(spec, out=out, workers=args.workers, progress=Progress)
+    results = run_map(
+        spec, out=out, workers=args.workers, other_version=args.other_version, progress=Progress
+    )
     say(map_text(results))
     for path in write_map(results):
         say(f"written: {path}")

@@ -2,12 +2,22 @@
 
 from __future__ import annotations
 
+import logging
+import time as clocks
+
 from flexcage.core.errors import RunFailed
+from flexcage.core.progress import clock
 from flexcage.core.units import describe
+
+log = logging.getLogger(__name__)
 
 #: Steps after which it is looked ahead, and how often in a row more must be seen than are allowed:
 #: a start or a hard impact takes short steps for a while.
 EVERY, IN_A_ROW = 20_000, 5
+#: s that a run may take without a word.
+LONG = 300.0
+_SHOWS, _SHARE = 10.0, 0.01  # s and share of a run that show its pace
+_LATEST = 20.0  # s after which any share does
 _REMEDY = (
     "look for a mass, a load, a speed or a stiffness far from those of bearings, shorten "
     "solver.duration, or raise solver.max_steps"
@@ -20,6 +30,9 @@ class Foresight:
     def __init__(self, most: int, duration: float) -> None:
         self.most, self.duration = most, duration
         self._seen = 0
+        self._window = 0, 0.0  # steps and time at the last look at steps
+        self._begun: tuple[float, float] | None = None  # clock and time at the first look
+        self._paced = False
 
     def explicit(self, steps: int, time: float, step: float) -> None:
         """Before steps of at most ``step`` [s], from ``time`` [s] on; RunFailed for too many."""
@@ -35,6 +48,33 @@ class Foresight:
         if self._seen >= IN_A_ROW:
             last = f"its last {EVERY:,} steps took {1e9 * mean:.3g} ns each"
             raise RunFailed(self._sentence(ahead, time, last))
+
+    def look(self, steps: int, time: float) -> None:
+        """After any number of steps, in all, up to ``time`` [s]."""
+        before, since = self._window
+        if time < since:  # a block is done again
+            self._window = before, since = steps, time
+        if steps - before >= EVERY:
+            self._window = steps, time
+            self.after(steps, time, (time - since) / (steps - before))
+        self.pace(time)
+
+    def pace(self, time: float) -> None:
+        """Say once how long the whole will take, if that is long; the first call begins."""
+        if self._begun is None:
+            self._begun = clocks.perf_counter(), time
+            return
+        spent, done = clocks.perf_counter() - self._begun[0], time - self._begun[1]
+        shown = spent >= _SHOWS and done >= _SHARE * self.duration
+        if self._paced or not (shown or spent >= _LATEST) or done <= 0.0:
+            return
+        self._paced = True
+        left = spent / done * (self.duration - time)
+        if left > LONG:
+            enough = float(f"{time + done * LONG / spent:.2g}")
+            log.info("at the pace of its first %.0f s the run takes about %s more; "
+                     "solver.duration = %s would take %s more",
+                     spent, clock(left), describe(enough, "ms"), clock(LONG))  # fmt: skip
 
     def _sentence(self, ahead: float, time: float, why: str) -> str:
         many = f"{ahead:,.0f}" if ahead < 1e7 else f"{ahead:.1e}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
+from time import perf_counter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -61,7 +62,8 @@ _REMEMBERED = (
     "pocket_force",
     "pocket_force_before",
 )  # of Events by checkpoints
-LOG_ROWS = EVERY  # steps that are logged at a time
+LOG_ROWS = EVERY  # steps that are logged at a time, at most
+_FIRST_ROWS, _BETWEEN = 16, 1.0  # at first; more of them where they take less than so many s
 
 
 class _Attempt(NamedTuple):
@@ -109,6 +111,7 @@ class Integration:
         self.bound = np.inf  # [s] least stability bound of explicit steps so far
         self._take("bdf" if solver.method == "auto" else solver.method, 0.0, start.y, start.yd)
         self._filter = np.zeros((2, 2, 2))
+        self._rows = _FIRST_ROWS
         self._foresight = Foresight(solver.max_steps, store.layout.n_time / output.rate)
         begun = store.blocks > 0  # by an earlier flexcage, if it has no loads
         self._keeps_loads = bearing.layout.modes > 0 and not (begun and not store.loads(0))
@@ -184,11 +187,13 @@ class Integration:
         duration = self.store.layout.n_time / self.output.rate
         with (progress or Silent)(duration, "solving") as bar:
             bar.begin_at(self.time)
+            self._foresight.look(self.effort.counts["steps"], self.time)
             while not self.store.complete:
                 before = self.store.n_time
                 self._block(self.store.blocks)
                 assert self.store.n_time > before, "a block that ends where it began"
                 bar.to(self.time)
+                self._foresight.look(self.effort.counts["steps"], self.time)
 
     def _block(self, index: int) -> None:
         """Integrate and store a block; again with a tighter tolerance where energy leaks."""
@@ -251,10 +256,11 @@ class Integration:
     ) -> tuple[int, int, np.ndarray]:
         """Fill a block's samples; (outcome, samples filled, rows of the log)."""
         logs, sample, outcome = [], 0, DONE
-        log, used = np.zeros((LOG_ROWS, len(LOG_COLUMNS))), 0
+        log, used = np.zeros((self._rows, len(LOG_COLUMNS))), 0
         for stop in [*self._corners(times[-1]), times[-1]]:
             outcome = LOG_FULL
             while outcome == LOG_FULL:
+                begin = perf_counter()
                 outcome, sample, rows = self.bearing.advance(
                     self.integrator, self.state, self.options, stop, times, ys, yds, sample,
                     log[used:], quads,
@@ -262,9 +268,10 @@ class Integration:
                 used += rows
                 if outcome == LOG_FULL:
                     logs.append(log)
-                    mean = float(log[-1, 0] - log[0, 0]) / (LOG_ROWS - 1)
-                    self._foresight.after(self.effort.counts["steps"], self.time, mean)
-                    log, used = np.zeros((LOG_ROWS, len(LOG_COLUMNS))), 0
+                    self._foresight.look(self.effort.counts["steps"], self.time)
+                    if perf_counter() - begin < _BETWEEN:
+                        self._rows = min(2 * self._rows, LOG_ROWS)
+                    log, used = np.zeros((self._rows, len(LOG_COLUMNS))), 0
             if outcome != DONE:
                 break
             if stop < times[-1]:

@@ -24,9 +24,8 @@ from flexcage.system.bodies import speeds_over
 
 log = logging.getLogger(__name__)
 
-#: Bore [mm] times speed [rpm] that bearings have run at on rigs, with jets of oil, or oil
-#: through the inner ring: balls, Bamberger, Zaretsky and Signer, J. Lubr. Technol. 98 (1976) 580;
-#: rollers, Schuller, NASA TP-1413 (1979).
+#: Bore [mm] times speed [rpm] near which test bearings have run on rigs, with jets of oil or oil
+#: through the inner ring: a limit that is demonstrated, not derived.
 MOST_DN = 3e6
 _SLIP = 1.05  # longer than by the epicyclic speed, for cages slip
 _INSTANTS = 2001  # at which the drive's speed is looked at
@@ -45,6 +44,11 @@ def foreseen(case: Case, *, stress: bool = True) -> tuple[RunWarning, ...]:
         said.append(("cage_temperature", text))
     found = [*(RunWarning(*each) for each in said), *_short(case), *_fast(case)]
     return (*found, *(_coarse(case) if stress else ()))
+
+
+def told_already() -> bool:
+    """Is this run one of several that were told of at once?"""
+    return _told.get()
 
 
 def told_before(case: Case, *, stress: bool) -> tuple[RunWarning, ...]:
@@ -137,10 +141,9 @@ def _fast(case: Case) -> Iterator[RunWarning]:
         yield RunWarning(
             "speed_factor",
             f"The inner ring reaches {rpm:,.0f} rpm, a speed factor (bore in mm times rpm) of "
-            f"{factor / 1e6:.3g} million. {bearing.element.capitalize()} bearings have run at "
-            f"{MOST_DN / 1e6:g} million at the most, with jets of oil or oil through the inner "
-            f"ring (NASA TP-1413): no known lubrication bears this speed; {within:,} rpm are "
-            "within it.",
+            f"{factor / 1e6:.3g} million. Test bearings have run near {MOST_DN / 1e6:g} million, "
+            "with jets of oil or oil through the inner ring; no known lubrication is shown to bear "
+            f"more: {within:,} rpm are within it.",
         )
 
 

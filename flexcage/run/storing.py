@@ -19,10 +19,17 @@ from flexcage.core.sources import physics
 from flexcage.core.timing import Stages
 from flexcage.core.warning import RunWarning
 from flexcage.integrate.recorded import new_store
-from flexcage.results import room
-from flexcage.results.cage_file import FORMAT, CageFile, cage_file, cage_record, check_same
+from flexcage.results.cage_file import (
+    FORMAT,
+    CageFile,
+    cage_file,
+    cage_record,
+    check_same,
+    find_cage,
+)
 from flexcage.results.store import MemoryRunStore
 from flexcage.results.warnings import to_text
+from flexcage.run.cage_sizes import check_sizes
 from flexcage.run.folder import check_links, keep_cage, kept_cage, write_case
 from flexcage.stages import Cage, made_cage
 from flexcage.system.problem import Bearing
@@ -45,7 +52,6 @@ def run_store(
     }  # fmt: skip
     if folder is not None:
         check_links(folder)
-        announce_room(case, bearing, folder)
         write_case(folder, case)
         file = _cage_file(case, cage)
         keep_cage(folder, file, study=study)
@@ -67,6 +73,8 @@ def stored_cage(case: Case, store: MemoryRunStore, folder: Path, stages: Stages)
     another one.
     """
     record = stages.named("cage", kept_cage, folder, store)
+    modes = store.layout.coords.get("mode", ((), ()))[1]
+    check_sizes(record, case, len(modes), find_cage(folder, record.digest))
     if record.mesh is None:
         mesh, made = made_cage(case, stages)
         assert made is not None, "a rigid cage keeps its mesh"
@@ -100,12 +108,3 @@ def _cage_file(case: Case, cage: Cage) -> CageFile:
     key = content_hash(FORMAT, reduction.content, BODY_VERSION, case.modes, large)
     kept = reduction.once(f"file {key}", lambda: cached_arrays("cage", key, make))
     return CageFile(str(kept["digest"]), kept["content"])
-
-
-def announce_room(case: Case, bearing: Bearing, folder: Path) -> None:
-    """Say how much room the results will take; EnvironmentLacks if there cannot be enough."""
-    output = case.output
-    recording = recording_of(case.bearing)
-    short = new_store(None, bearing, recording, duration=0.0, output=output, attrs={})
-    rate = room.expected_rate(short.layout, output.rate, output.vibration_rate)
-    room.announce(folder, rate, case.solver.duration)

@@ -24,6 +24,7 @@ from typing import IO, Any
 
 from flexcage.compiling import SAME_PACKAGE
 from flexcage.core.errors import EnvironmentLacks, InputError, RunFailed, install
+from flexcage.core.stopping import check
 
 log = logging.getLogger(__name__)
 
@@ -221,6 +222,7 @@ def _address(folder: Path, scheduler: subprocess.Popen) -> str:
 
     end = time.monotonic() + START
     while scheduler.poll() is None and time.monotonic() < end:
+        check()
         with suppress(OSError):  # not there yet
             return (folder / ADDRESS).read_text("utf-8")
         time.sleep(0.05)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import logging
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from math import hypot, nan
 from pathlib import Path
@@ -14,6 +14,7 @@ from typing import Any
 from flexcage.case import Case
 from flexcage.contacts.spec import FEWEST_SLICES, MOST_SLICES
 from flexcage.core.errors import FlexcageError, InputError
+from flexcage.core.reading import read_json
 from flexcage.core.warning import RunWarning
 from flexcage.core.writing import replace
 from flexcage.mesh.options import FINENESS
@@ -24,7 +25,7 @@ from flexcage.results.summary import Row, Summary
 from flexcage.run.folder import write_case
 from flexcage.run.foreseen import told_at_once
 from flexcage.study.convergence import Convergence, Finding
-from flexcage.study.origin import Origin, stored_origin, this_one
+from flexcage.study.origin import Origin, check_origins, stored_origin, this_one
 from flexcage.study.work import run_in
 
 log = logging.getLogger(__name__)
@@ -130,13 +131,15 @@ def converge(
     out: str | Path,
     axes: Sequence[str] = (),
     duration: float | str | None = None,
+    other_version: bool = False,
     progress: Any = None,
 ) -> Convergence:
     """Repeat a case along each axis, the others left as they are, and compare its outputs.
 
     Every run lies in ``out/cases/<hash>``; one that is complete there is not repeated, and one
-    that stopped goes on. ``duration`` replaces the case's own. A run that fails is reported with
-    its reason. The table is written to ``out`` as text, .csv and .json, with a picture.
+    that stopped goes on. ``duration`` replaces the case's own; ``other_version`` allows to compare
+    with runs that a flexcage of other physics computed. A run that fails is reported with its
+    reason. The table is written to ``out`` as text, .csv and .json, with a picture.
     """
     from flexcage.render import convergence_picture
 
@@ -146,12 +149,22 @@ def converge(
     out = Path(out)
     write_case(out, case)
     wanted = {level.case.hash: level for level in (*steps, Level("case", "as is", case))}
+    _check_physics(wanted, out / "cases", allowed=other_version)
     with told_at_once(level.case for level in wanted.values()):
         figures = _run_all(wanted, out / "cases", progress)
     found = _compare(case, steps, figures, out / "cases")
     found.write(out)
     convergence_picture([f.record() for f in found.findings], out / "converge.png", name=case.name)
     return found
+
+
+def _check_physics(wanted: Collection[str], cases: Path, *, allowed: bool) -> None:
+    """Refuse, or say, that runs would be compared with those of other physics."""
+    done = [cases / name for name in wanted if (cases / name / "summary.json").exists()]
+    new = len(wanted) - len(done)
+    mixed = check_origins(map(_origin_of, done), new=new, folder=cases.parent, allowed=allowed)
+    if mixed:
+        log.warning(mixed)
 
 
 def _run_all(wanted: dict[str, Level], folder: Path, progress: Any) -> dict[str, Summary | str]:
@@ -218,12 +231,17 @@ def _compare(
     )
 
 
+def _origin_of(folder: Path) -> Origin:
+    """Which flexcage computed the run in a folder, as far as anybody knows."""
+    try:
+        return stored_origin(read_json(folder / _ORIGIN))
+    except (OSError, ValueError, AttributeError):
+        return Origin()
+
+
 def _by_another(folder: Path) -> list[RunWarning]:
     """A warning if another flexcage computed the run in a folder, or if nobody knows which."""
-    try:
-        origin = stored_origin(json.loads((folder / _ORIGIN).read_text("utf-8")))
-    except (OSError, ValueError, TypeError, AttributeError):
-        origin = Origin()
+    origin = _origin_of(folder)
     if origin == this_one():
         return []
     who = f"flexcage {origin}" if origin.version else "a flexcage that kept no version"

@@ -29,6 +29,7 @@ from typing import Any
 from flexcage.core.errors import InputError, unwritable
 from flexcage.core.hashing import seal_holds, sealed
 from flexcage.core.locks import LOCK, held
+from flexcage.core.reading import read_json
 from flexcage.core.warning import RunWarning
 from flexcage.core.writing import check_own, replace, sync
 from flexcage.study.about import About, base_of, from_store, to_store
@@ -113,7 +114,7 @@ class Folder:
         if they are not there. Nothing of the user's own is needed to read it."""
         file = self._text_file()
         try:
-            plan = json.loads((self.path / "plan.json").read_text("utf-8"))
+            plan = read_json(self.path / "plan.json")
             if isinstance(plan, list):  # of an earlier flexcage: hashes alone
                 plan = {"hashes": plan, **base_of(self.study())}
             if not seal_holds(plan):
@@ -260,7 +261,7 @@ def _write_json(path: Path, value: Any) -> None:
 
 def _read_json(path: Path) -> Any:
     try:
-        return json.loads(path.read_text("utf-8"))
+        return read_json(path)
     except FileNotFoundError:
         return None
     except (OSError, ValueError) as exc:

@@ -21,6 +21,7 @@ from flexcage.case import Case
 from flexcage.core.binding import Binder, check_spec
 from flexcage.core.errors import InputError
 from flexcage.core.hashing import seal_holds, sealed
+from flexcage.core.reading import read_json, table_of
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import format_si
 from flexcage.core.writing import check_name
@@ -32,7 +33,7 @@ from flexcage.study.folder import Folder
 from flexcage.study.origin import this_one
 from flexcage.study.plan import make_plan
 from flexcage.study.results import StudyResults
-from flexcage.study.run import run_study
+from flexcage.study.run import check_physics, run_study
 from flexcage.study.sensitivity import Index, indices
 from flexcage.study.spec import KEEP, Study, base_case, read_file, use_extensions
 from flexcage.study.unknowns import DESIGNS, DUMMY, Unknown, check_unknowns, design_of
@@ -154,20 +155,25 @@ def run_map(
     out: str | Path,
     points: Sequence[int] | None = None,
     workers: int | None = None,
+    other_version: bool = False,
     progress: Callable[..., Any] | None = None,
 ) -> MapResults:
-    """Compute what the folder ``out`` lacks of a map; ``workers`` and ``progress`` are those of
-    ``run_study``. A run that fails is a gap in the map, with its reason in the study's table.
+    """Compute what the folder ``out`` lacks of a map; ``workers``, ``other_version`` and
+    ``progress`` are those of ``run_study``. A run that fails is a gap in the map, with its reason
+    in the study's table.
 
     Only some ``points`` are computed where they are named: so a map is rechecked with a finer
     model, whose folder is another.
     """
     out, study = Path(out), spec.study(points)
     plan = make_plan(study)
-    Folder(out.resolve()).prepare(plan)
+    folder = Folder(out.resolve())
+    if not other_version:
+        check_physics(plan, folder, allowed=False)  # before map.json is another
+    folder.prepare(plan)
     stored = sealed({**spec.stored(), "plan": key_of(plan.cases)})
     replace_file(out / FILE, (json.dumps(stored, indent=1) + "\n").encode())
-    run_study(study, out=out, workers=workers, progress=progress)
+    run_study(study, out=out, workers=workers, other_version=other_version, progress=progress)
     return MapResults(out)
 
 
@@ -183,7 +189,7 @@ class MapResults:
                 where="path", value=str(path),
             )  # fmt: skip
         try:
-            self.about: dict[str, Any] = json.loads(file.read_text("utf-8"))
+            self.about: dict[str, Any] = table_of(read_json(file))
             if self.about["format"] != FORMAT:
                 raise ValueError(f"format {self.about['format']}")
             if not seal_holds(self.about):

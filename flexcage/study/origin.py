@@ -5,23 +5,26 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
-from functools import cache
 from typing import Any
 
 from flexcage._version import __version__
+from flexcage.core.errors import InputError
+from flexcage.core.sources import physics
 
-_SHOWN = 8  # digits of the kernels' hash that a sentence shows
+_SHOWN = 8  # digits of the physics' hash that a sentence shows
 
 
 @dataclass(frozen=True)
 class Origin:
-    """Version and hash of the kernels' sources; both empty where an earlier flexcage kept none."""
+    """Version, and hash of the sources of physics (``core.sources.physics``); empty where an
+    earlier flexcage kept none."""
 
     version: str = ""
-    kernels: str = ""
+    physics: str = ""
 
     def __str__(self) -> str:
-        return f"{self.version} (kernels {self.kernels[:_SHOWN]})" if self.version else ""
+        known = self.physics[:_SHOWN] or "not kept"
+        return f"{self.version} (physics {known})" if self.version else ""
 
     def to_store(self) -> dict[str, str]:
         return asdict(self)
@@ -29,20 +32,20 @@ class Origin:
 
 def stored_origin(table: Any) -> Origin:
     """The origin that a file holds, or one that is not known."""
-    return Origin(**{k: str(v) for k, v in table.items()}) if table else Origin()
+    known = table or {}
+    return Origin(str(known.get("version", "")), str(known.get("physics", "")))
 
 
-@cache
 def this_one() -> Origin:
     """This process's flexcage."""
-    from flexcage.core import jit
-
-    return Origin(__version__, jit.source_hash(jit.kernel_sources()))
+    return Origin(__version__, physics())
 
 
 def told_apart(origins: Iterable[Origin]) -> str:
-    """A sentence if cases are not all of one flexcage, or if nobody knows; else nothing."""
-    counts = Counter(map(str, origins))
+    """A sentence if cases are not all of one flexcage, or of another than this one, or if nobody
+    knows; else nothing."""
+    found = list(origins)
+    counts = Counter(map(str, found))
     unknown, total = counts.pop("", 0), sum(counts.values())
     if len(counts) + bool(unknown) > 1:
         parts = [f"{count} by {name}" for name, count in counts.items()]
@@ -56,4 +59,37 @@ def told_apart(origins: Iterable[Origin]) -> str:
         return (
             f"Which version of flexcage computed the {unknown + total} finished cases is not known."
         )
+    if found and not same_physics(found[0]):
+        return (
+            f"Another flexcage, {found[0]}, computed these cases, and this is {this_one()}: "
+            "computed anew they may differ."
+        )
     return ""
+
+
+def same_physics(origin: Origin) -> bool:
+    """Whether this flexcage has the physics of that one."""
+    return origin.physics == physics()
+
+
+def check_origins(origins: Iterable[Origin], *, new: int, folder: Any, allowed: bool) -> str:
+    """A sentence if finished cases are of other physics than the ``new`` ones that would now join
+    them, or nothing; InputError unless ``allowed``."""
+    found = list(origins)
+    others = [origin for origin in found if not same_physics(origin)]
+    if not others or not new:
+        return ""
+    names = ", ".join(dict.fromkeys(str(o) or "an earlier one that kept none" for o in others))
+    text = (
+        f"{len(others)} of the {len(found)} finished cases in '{folder}' were computed by flexcage "
+        f"{names}, and this is {this_one()}: with the {new} still to compute, one table would mix "
+        "different physics."
+    )
+    if allowed:
+        return text
+    raise InputError(
+        f"{text[:-1]}. Go on with the one that began it, take a new folder, or take "
+        "--other-version (in Python, other_version=True), which table and page then say.",
+        where="resume",
+        value=others[0].physics,
+    )

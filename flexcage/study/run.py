@@ -12,10 +12,12 @@ from flexcage.core.binding import expect
 from flexcage.core.errors import RunFailed
 from flexcage.core.hashing import content_hash
 from flexcage.core.progress import Silent
-from flexcage.core.stopping import unwinding
+from flexcage.core.stopping import check, unwinding
+from flexcage.run.cost import Cost
 from flexcage.run.foreseen import tell
-from flexcage.study.cluster import connect, require_packages
+from flexcage.study.cluster import connect, default_workers, require_packages
 from flexcage.study.folder import Failure, Folder
+from flexcage.study.origin import check_origins
 from flexcage.study.outputs import beyond_summary, lacking, needs_stress
 from flexcage.study.plan import Plan, Planned, make_plan
 from flexcage.study.results import StudyResults
@@ -27,6 +29,7 @@ log = logging.getLogger(__name__)
 
 AHEAD = 3  # cases handed out per worker: one runs, the others wait beside it
 _LOOK = 1.0  # s between two looks at how many workers there are
+_WAIT = 0.05  # s between two looks at what has come back
 
 
 def run_study(
@@ -36,29 +39,34 @@ def run_study(
     workers: int | None = None,
     scheduler: Any = None,
     retry: bool = False,
+    other_version: bool = False,
     progress: Callable[..., Any] | None = None,
 ) -> StudyResults:
     """Compute what the folder ``out`` lacks of a study, and gather its tables.
 
     Runs on ``workers`` processes of this machine (default: one a core), or on a Dask ``scheduler``,
     by its address or as a Dask cluster, whose certificates are then taken. Cases found in the
-    folder are not computed again; ``retry`` tries those again that failed. ``progress`` is a
-    context like ``core.progress.Progress``. One process at a time runs a study in a folder.
+    folder are not computed again; ``retry`` tries those again that failed, and ``other_version``
+    adds cases to those that a flexcage of other physics computed, which table and page then say.
+    ``progress`` is a context like ``core.progress.Progress``. One process at a time runs a study in
+    a folder.
 
-    A case that fails is a row with its reason. Raises InputError for a mistake in the plan, or a
-    folder in which another process runs a study, before anything is computed, and RunFailed if the
-    scheduler is lost; what is finished stays, and the tables show it.
+    A case that fails is a row with its reason. Raises InputError for a mistake in the plan, a
+    folder in which another process runs a study, or one whose cases are of other physics, before
+    anything is computed, and RunFailed if the scheduler is lost; what is finished stays, and the
+    tables show it.
     """
     expect(study, Study, "study", "flexcage.load_study reads one from a file")
     require_packages()
     plan = make_plan(study)
     folder = Folder(Path(out).resolve())
+    check_physics(plan, folder, allowed=other_version)
     folder.prepare(plan)
     with folder.held():
         todo = _lacking(plan, folder, retry=retry)
         try:
             if todo:
-                _tell_before(plan, todo)
+                _tell_before(plan, folder, todo, (scheduler, workers))
                 with unwinding():  # Ctrl-C ends the workers
                     _compute(plan, folder, todo, (scheduler, workers), progress)
         except BaseException:  # Ctrl-C as well: the tables show what is finished
@@ -69,10 +77,23 @@ def run_study(
     return results
 
 
-def _tell_before(plan: Plan, todo: set[str]) -> None:
-    """Log what is foreseen of the cases to compute."""
-    cases = (plan.case(planned) for planned in plan.cases if planned.hash in todo)
+def _tell_before(plan: Plan, folder: Folder, todo: set[str], where: tuple[Any, int | None]) -> None:
+    """Log what is foreseen of the cases to compute, and what disk and time they will take."""
+    cost = Cost()
+    cases = (cost.counted(plan.case(planned)) for planned in plan.cases if planned.hash in todo)
     tell(cases, stress=needs_stress(plan.study.outputs))
+    scheduler, workers = where
+    if scheduler is None:
+        crew = min(workers or default_workers(), len(todo))
+        kept = folder.path if plan.study.keep == "runs" else None
+        cost.tell(kept, workers=crew, each=_seconds_each(plan, folder))
+
+
+def _seconds_each(plan: Plan, folder: Folder) -> float | None:
+    """Processor time [s] of a case, by those that are done; None before the first."""
+    rows = (folder.row(planned.hash) for planned in plan.cases)
+    seconds = [row.seconds for row in rows if row is not None]
+    return sum(seconds) / len(seconds) if seconds else None
 
 
 def _compute(
@@ -105,6 +126,16 @@ def _try_to_write(folder: Folder) -> None:
         log.warning("the tables were not written: %s", exc)
 
 
+def check_physics(plan: Plan, folder: Folder, *, allowed: bool) -> None:
+    """Refuse, or say, that cases of a plan would join finished ones of other physics."""
+    rows = {planned.hash: folder.row(planned.hash) for planned in plan.cases}
+    done = [row.origin for row in rows.values() if row is not None]
+    beyond = beyond_summary(plan.study.outputs)
+    new = sum(row is None or bool(lacking(beyond, row.figures)) for row in rows.values())
+    if mixed := check_origins(done, new=new, folder=folder.path, allowed=allowed):
+        log.warning(mixed)
+
+
 def _lacking(plan: Plan, folder: Folder, *, retry: bool) -> set[str]:
     """Hashes of the cases to compute."""
     todo, beyond = set(), beyond_summary(plan.study.outputs)
@@ -129,6 +160,7 @@ class _Desk:
         self._modes: dict[str, Any] = {}  # futures of modes that cases share, by key
         self._names: dict[str, str] = {}  # hash of a case by the key of its future
         self._window, self._looked = 1, -_LOOK
+        self._back: list[Any] = []  # futures that have come back and wait to be taken
 
     def work_off(self, todo: set[str]) -> Iterator[str]:
         """Hash of every case of ``todo``, as it comes back."""
@@ -138,10 +170,10 @@ class _Desk:
         # those that share modes one after the other, so that the cache need not hold them all
         cases = (planned for planned in self.plan.cases if planned.hash in todo)
         for planned in sorted(cases, key=lambda planned: planned.modes):
-            while out.count() >= self._room():
+            while out.count() + len(self._back) >= self._room():
                 yield self._take(out)
             out.add(self._submit(planned))
-        while out.count():
+        while out.count() or self._back:
             yield self._take(out)
 
     def _room(self) -> int:
@@ -170,7 +202,12 @@ class _Desk:
 
     def _take(self, out: Any) -> str:
         """Wait for the next case that comes back; its hash."""
-        future = next(out)
+        while not self._back:
+            check()
+            self._back += out.next_batch(block=False)
+            if not self._back:
+                time.sleep(_WAIT)
+        future = self._back.pop(0)
         name = self._names.pop(future.key)
         if future.status == "error":
             error = future.exception()

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.core.errors import InputError
+from flexcage.core.reading import read_json, table_of
 from flexcage.core.writing import replace
 from flexcage.study.results import mean_and_half_width
 
@@ -204,7 +205,7 @@ def read_verdicts(folder: str | Path) -> list[Verdict]:
     if not path.is_file():
         return []
     try:
-        stored = json.loads(path.read_text("utf-8"))
+        stored = table_of(read_json(path))
         if stored["format"] != FORMAT:
             raise InputError(
                 f"'{path}' has format {stored['format']}, and this flexcage reads format {FORMAT}.",

@@ -16,7 +16,6 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from flexcage._version import __version__
 from flexcage.case import Case, load_case, load_extension
 from flexcage.case.extensions import sources
 from flexcage.compiling import kernels_of
@@ -31,7 +30,7 @@ from flexcage.simulate import load_run, simulate
 from flexcage.stages import cage_mesh, cage_reduction, keep_at_hand
 from flexcage.study.about import plain
 from flexcage.study.folder import CaseRow, Failure, Folder
-from flexcage.study.origin import this_one
+from flexcage.study.origin import Origin, this_one
 from flexcage.study.outputs import beyond_summary, figures_of, lacking, late_figures, needs_stress
 from flexcage.study.plan import Plan, Planned
 from flexcage.study.telling import Told, teller
@@ -51,7 +50,7 @@ class Order:
     use: tuple[str, ...]  # extensions to load
     keep: str
     values: Mapping[str, Any] = field(default_factory=dict)  # that the study's axes gave, by path
-    version: str = __version__
+    origin: Origin = field(default_factory=this_one)  # the flexcage that planned it
 
 
 def order_of(plan: Plan, planned: Planned, folder: Path) -> Order:
@@ -136,10 +135,10 @@ def _load(order: Order) -> None:
 
 def _case_of(order: Order) -> Case:
     """The case, which must be the same here as where it was planned."""
-    if order.version != __version__:
+    if order.origin != this_one():
         raise InputError(
-            f"The study was planned by flexcage {order.version}, and the worker has "
-            f"{__version__}; install the same on both."
+            f"The study was planned by flexcage {order.origin}, and the worker has "
+            f"{this_one()}; install the same on both."
         )
     _load(order)
     case = load_case(order.text)

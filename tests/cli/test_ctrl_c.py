@@ -49,7 +49,8 @@ def interrupted(folder, moment: float, *words: str, **env: str) -> tuple[int, li
 
 
 def stopped_in_one_line(code: int, lines: list[str]) -> None:
-    said = [k for k in lines if not k.startswith(("the results need", "compiling the kernels"))]
+    before = "the results (", "solving will take", "at the pace", "compiling the kernels"
+    said = [k for k in lines if not k.startswith(before)]
     assert code == 130, lines
     assert len(said) == 1 and said[0].startswith("flexcage: Stopped"), lines
 

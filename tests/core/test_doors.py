@@ -17,6 +17,11 @@ DOORS = {
     "marshal.loads": (),
     "shelve.open": (),
     "yaml.load": (),
+    "json.loads": ("core/reading.py",),
+    "json.load": (),
+    "JSONDecoder": (),
+    "tomllib.loads": ("core/toml.py",),
+    "tomllib.load": (),
     "np.load": (),  # core/arrays.py reads .npz
     "numpy.load": (),
     "read_array": ("core/arrays.py", "results/metadata.py"),  # numpy's; and that of results/door

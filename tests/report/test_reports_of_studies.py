@@ -13,7 +13,7 @@ from flexcage.core.warning import RunWarning
 from flexcage.report.comparison import Output
 from flexcage.study.axes import Grid, LatinHypercube, Points, Zip
 from flexcage.study.folder import CaseRow, Failure, Folder
-from flexcage.study.origin import Origin
+from flexcage.study.origin import this_one
 from flexcage.study.outputs import Figure
 from flexcage.study.page_stress import to_show
 from flexcage.study.page_tables import abscissas, outputs, point_names
@@ -41,7 +41,7 @@ def study_folder(
             figures |= {"energy_audit": Figure("EXCEEDED" if k == 0 else "passed", "1"),
                         "steps": Figure(100 + k, "1")}  # fmt: skip
             folder.case(planned.hash).mkdir(parents=True)
-            values, origin = planned.point.values, Origin("0.1.0", "f" * 16)
+            values, origin = planned.point.values, this_one()
             row = CaseRow(planned.hash, 1.5, figures, warned(k), values, origin)
             folder.write_row(folder.case(planned.hash), row)
     return StudyResults(path)

@@ -7,10 +7,13 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from simulate_cases import n1013
 
 from flexcage.core.errors import RunFailed
+from flexcage.integrate import foresight, integration
 from flexcage.integrate.foresight import EVERY, IN_A_ROW, Foresight
 from flexcage.integrate.integration import Integration
+from flexcage.simulate import simulate
 from flexcage.solve.contract import COUNTS
 from flexcage.solve.options import SolverOptions
 
@@ -61,3 +64,45 @@ def test_a_run_looks_ahead_before_its_first_step():
     run._foresight = Foresight(run.solver.max_steps, 0.1)
     with pytest.raises(RunFailed, match=re.escape("1.0e+14 steps")):
         run._choose()
+
+
+def test_looks_come_as_often_as_steps_are_slow():
+    """Windows of ``EVERY`` steps are put together of short looks."""
+    ahead, time = Foresight(50_000_000, 0.1), 0.0
+    with pytest.raises(RunFailed, match=re.escape("1.0e+11 steps, more than solver.max_steps (5")):
+        for look in range(1, 100 * IN_A_ROW):
+            time += EVERY / 50 * 1e-12
+            ahead.look(EVERY // 50 * look, time)
+    assert look == 50 * IN_A_ROW
+
+
+def test_slow_steps_tell_their_pace_within_half_a_minute(monkeypatch, caplog):
+    """Steps of 4 s and 1 us: four days for 0.1 s; no block is done for long."""
+    now = [0.0]
+    monkeypatch.setattr(foresight.clocks, "perf_counter", lambda: now[0])
+    ahead = Foresight(50_000_000, 0.1)
+    with caplog.at_level("INFO", logger="flexcage"):
+        ahead.look(0, 0.0)
+        for step in range(1, 20):
+            now[0] += 4.0
+            ahead.look(step, 1e-6 * step)
+            if caplog.messages:
+                break
+    (line,) = caplog.messages
+    assert now[0] == 20.0 and "the run takes about 111 h 6 min more" in line
+    assert "solver.duration = 0.08 ms would take 5 min 00 s more" in line
+
+
+@pytest.mark.parametrize("method", ["bdf", "explicit"])
+def test_how_often_it_is_looked_changes_no_bit(monkeypatch, method):
+    case = n1013({"cage.model": "rigid", "solver.duration": "0.4 ms", "solver.method": method})
+    often, seldom = (run_with(monkeypatch, case, rows) for rows in (1, 20_000))
+    for name in ("cage_position", "element_velocity", "work"):
+        np.testing.assert_array_equal(often.dataset[name], seldom.dataset[name])
+    for name, values in often.steps.items():
+        np.testing.assert_array_equal(values, seldom.steps[name])
+
+
+def run_with(monkeypatch, case, rows):
+    monkeypatch.setattr(integration, "_FIRST_ROWS", rows)
+    return simulate(case)

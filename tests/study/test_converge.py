@@ -111,12 +111,12 @@ def test_runs_of_another_flexcage_are_named(tmp_path):
     clean = converge(CASE, out=tmp_path, axes=["slices"])
     assert not any(warned for warned in clean.warnings.values())
     own, other = (tmp_path / "cases" / name / "origin.json" for name in FakeRun.calls[:2])
-    own.write_text(json.dumps({"version": "0.0.9", "kernels": "a" * 16}))
+    own.write_text(json.dumps({"version": "0.0.9", "physics": "a" * 16}))
     other.unlink()
     found = converge(CASE, out=tmp_path, axes=["slices"])
     said = [w.text for warned in found.warnings.values() for w in warned if w.key == "version"]
     assert len(said) == 2 and len(FakeRun.calls) == 3
-    assert any("Flexcage 0.0.9 (kernels aaaaaaaa) computed this run" in text for text in said)
+    assert any("Flexcage 0.0.9 (physics aaaaaaaa) computed this run" in text for text in said)
     assert any("A flexcage that kept no version computed" in text for text in said)
     assert "results may differ" in (tmp_path / "converge.txt").read_text()
 

@@ -18,15 +18,16 @@ from flexcage.study.about import base_of, plain
 from flexcage.study.axes import Grid
 from flexcage.study.folder import CaseRow, Folder
 from flexcage.study.maps import Map, MapResults
-from flexcage.study.origin import Origin
+from flexcage.study.origin import Origin, this_one
 from flexcage.study.outputs import Figure
 from flexcage.study.plan import make_plan
 from flexcage.study.results import StudyResults
 from flexcage.study.samples import samples_of
 from flexcage.study.surface import surface_through
 from flexcage.study.unknowns import Unknown
+from flexcage.study.verdicts import read_verdicts
 
-HERE = Origin("0.1.0", "f" * 16)
+HERE = this_one()
 LOADS = Grid("load.radial", ["500 N", "1000 N", "2000 N", "3000 N", "4000 N"])
 
 
@@ -113,6 +114,23 @@ def test_an_edited_plan_or_row_is_refused(done, capsys):
     assert cli.main(["study", "report", str(done.path)]) == 0
 
 
+DEEP = "[" * 200_000
+
+
+@pytest.mark.parametrize("name", ["plan.json", "cases/{}/row.json", "failed/{}.json"])
+def test_a_text_nested_too_deep_is_refused(done, capsys, name):
+    (done.path / name.format(done.about()[1][0].hash)).write_text(DEEP)
+    assert cli.main(["study", "report", str(done.path)]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1 and str(done.path) in said
+
+
+def test_verdicts_nested_too_deep_are_refused(done):
+    (done.path / "verdicts.json").write_text(DEEP)
+    with pytest.raises(InputError, match="does not hold verdicts .*nested too deep"):
+        read_verdicts(done.path)
+
+
 def test_a_case_in_the_place_of_another_is_refused(done):
     first, second = (done.case(p.hash) for p in done.about()[1][:2])
     shutil.rmtree(first)
@@ -153,7 +171,7 @@ def test_rows_of_different_versions_are_told_apart(done, tmp_path):
     other = CaseRow(case.hash, 1.0, figures, (), plain(case.point.values), Origin("0.0.9", "a" * 8))
     done.write_row(done.case(case.hash), other)
     results = StudyResults(done.path)
-    words = "1 by 0.0.9 (kernels aaaaaaaa), 1 by 0.1.0 (kernels ffffffff)"
+    words = f"1 by 0.0.9 (physics aaaaaaaa), 1 by {this_one()}"
     assert words in " ".join(results.report().split())
     assert words in results.page(tmp_path / "page.html").read_text("utf-8")
     assert list(results.table["version"])[0].startswith("0.0.9")
@@ -173,6 +191,13 @@ def mapped(tmp_path, monkeypatch):
 
     monkeypatch.setattr(maps, "run_study", run)
     return maps.run_map(small_map(), out=tmp_path / "map")
+
+
+def test_a_map_nested_too_deep_is_refused(mapped):
+    folder = mapped.study.folder.path
+    (folder / "map.json").write_text(DEEP)
+    with pytest.raises(InputError, match="does not hold the map of this folder"):
+        MapResults(folder)
 
 
 def test_an_edited_map_is_refused(mapped):

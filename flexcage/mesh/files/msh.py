@@ -8,7 +8,6 @@ reads, in a process of its own, because damaged files can end it.
 
 from __future__ import annotations
 
-import json
 import re
 import subprocess
 import sys
@@ -19,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.core.arrays import read_arrays
+from flexcage.core.reading import json_of
 from flexcage.mesh.files.raw import RawMesh, Refused, first_alike, group_name
 from flexcage.mesh.files.shapes import OTHER_SHAPE, SOLIDS, TRIANGLES, solids_of
 
@@ -84,7 +84,7 @@ def _from_gmsh(arrays: dict[str, np.ndarray]) -> RawMesh:
     of: dict[int, list[np.ndarray]] = {}
     surfaces: dict[str, list[np.ndarray]] = {}
     others: dict[str, str] = {}
-    for i, (shape, groups) in enumerate(json.loads(str(arrays["blocks"]))):
+    for i, (shape, groups) in enumerate(json_of(str(arrays["blocks"]))):
         nodes = np.searchsorted(numbers, arrays[f"nodes{i}"])
         if shape == "tetrahedron":
             size = nodes.shape[1]
