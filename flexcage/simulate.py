@@ -17,7 +17,7 @@ from flexcage.core.timing import Stages
 from flexcage.integrate.integration import Integration
 from flexcage.results.store import MemoryRunStore
 from flexcage.run import Run, warnings_at_start
-from flexcage.run.folder import begun_store, check_written, open_folder
+from flexcage.run.folder import begun_store, check_written, open_folder, tell_unfinished
 from flexcage.run.foreseen import told_before
 from flexcage.run.storing import run_store, stored_cage
 from flexcage.stages import assembled_start, made_cage
@@ -89,6 +89,7 @@ def load_run(folder: str | Path, *, progress: Any = None) -> Run:
     ignored with a warning.
     """
     case, store, edited = open_folder(Path(folder))
+    tell_unfinished(Path(folder), store, case.solver.duration)
     stages = Stages(progress)
     mesh, cage = stored_cage(case, store, Path(folder), stages)
     return Run(case, store, Path(folder), mesh, cage, stages=stages, edited=edited)

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from flexcage.core.errors import FlexcageError, InputError, unwritable
 from flexcage.core.locks import LOCK, check_free, held
+from flexcage.core.output_folders import check_run
 
 _OURS = ("case.toml", "results.zarr", "compare.json")  # one of them is in every folder of ours
 
@@ -122,6 +123,5 @@ def prepare_file(path: Path, endings: Iterable[str], *, force: bool) -> None:
 def existing_run(path: str | Path) -> Path:
     """Folder of a stored run, or InputError."""
     path = Path(path)
-    if not (path / "results.zarr").exists():
-        raise InputError(f"'{path}' is not the folder of a run: it has no results.zarr.")
+    check_run(path)
     return path

@@ -68,15 +68,49 @@ MISTAKES = {
     "drill": (["run", EXAMPLE, "--set", "drive.speed=6000000 rpm"], ["centrifugal"]),
     "clearance": (["run", EXAMPLE, "--set", "bearing.radial_clearance=5 mm"], ["0.4 mm"]),
     "overload": (["run", EXAMPLE, "--set", "load.radial=500 kN"], ["4 times", "51 kN"]),
-    "no run": (["render", "nothing"], ["not the folder of a run"]),
+    "no run": (["render", "nothing"], ["no folder 'nothing'; name the folder of a run"]),
     "three to compare": (
         ["compare", "a", "b", "c"],
         ["one case", "or two run folders", "given a b c"],
     ),
     "one run to compare": (["compare", "."], ["one case", "two run folders", "given ."]),
-    "compare no run": (["compare", "a", "b"], ["'a' is not the folder of a run"]),
+    "compare no run": (["compare", "a", "b"], ["no folder 'a'; name the folder of a run"]),
     "nothing to resume": (["run", EXAMPLE, "-o", "nothing", "--resume"], ["not the folder of a"]),
 }
+
+
+@pytest.fixture
+def folders(elsewhere):
+    """A run, a study, a comparison and a run that has not begun, by their names; and two files."""
+    for name in ("runs/good/results.zarr", "runs/other/results.zarr", "both/rigid/results.zarr",
+                 "study/cases", "begun"):  # fmt: skip
+        (elsewhere / name).mkdir(parents=True)
+    for name in ("study/study.toml", "both/compare.json", "begun/case.toml", "mine.toml", "a.png"):
+        (elsewhere / name).write_text("")
+
+
+WRONG_FOLDERS = {
+    "a case": (["render", "mine.toml"], "it is a file, of which 'flexcage run mine.toml' makes one"),
+    "a picture": (["wear", "a.png"], "'a.png' is not the folder of a run: it is a file."),
+    "a folder of runs": (["fatigue", "runs"], "it holds 'runs/good', 'runs/other'; name one of"),
+    "a study": (["export", "study"], "it is that of a study, whose runs are in 'study/cases'"),
+    "a comparison": (["report", "both"], "it is that of a comparison, whose runs are 'both/rigid'"),
+    "a run not begun": (["render", "begun"], "its run has not come to its first results"),
+    "a run misspelt": (["wear", "runs/goood"], "the nearest one there is 'runs/good'"),
+    "no ending": (["run", "mine"], "no case file 'mine'; the nearest one there is 'mine.toml'"),
+    "no folder": (["run", "nowhere/mine.toml"], "there is no folder 'nowhere'"),
+    "a run as a study": (["study", "resume", "runs/good"], "it is that of a run"),
+    "a case as a study": (["study", "status", "mine.toml"], "'flexcage study run mine.toml' makes"),
+    "no study": (["study", "run", "mne.toml"], "no study file 'mne.toml'; the nearest one there is"),
+    "no extension": (["run", "mine.toml", "--use", "law.py"], "There is no file 'law.py'; --use"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", WRONG_FOLDERS)
+def test_a_path_of_another_kind_is_told_what_it_is(name, capsys, folders):
+    argv, words = WRONG_FOLDERS[name]
+    assert cli.main(argv) == 2
+    assert words in (text := sentence(capsys)), text
 
 
 @pytest.mark.parametrize("name", MISTAKES)
