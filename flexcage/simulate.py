@@ -13,6 +13,7 @@ from flexcage.case import Case
 from flexcage.compiling import begin_compiling, build_bearing
 from flexcage.core.binding import expect
 from flexcage.core.locks import held
+from flexcage.core.output_folders import check_no_file
 from flexcage.core.timing import Stages
 from flexcage.integrate.integration import Integration
 from flexcage.results.store import MemoryRunStore
@@ -46,6 +47,7 @@ def simulate(
     if out is None:
         return _simulated(case, None, None, None, stress, progress)
     folder = Path(out)
+    check_no_file(folder)
     if resume:
         check_written(folder)
     with held(folder, inside=True):

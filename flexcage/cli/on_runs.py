@@ -10,7 +10,7 @@ from typing import Any
 
 from flexcage.cli.files import existing_run, prepare_file, prepare_out
 from flexcage.cli.parser import command, picture_options, say
-from flexcage.cli.settings import case_from, look_of
+from flexcage.cli.settings import case_from, look_of, told_case_from
 from flexcage.core.errors import InputError
 from flexcage.core.output_folders import check_either
 
@@ -168,7 +168,7 @@ def _export_body(args: argparse.Namespace) -> int:
     if args.table:
         raise InputError(f"--table belongs to a run, and '{args.run}' is a case.", where="table")
     args.case = args.run
-    case = case_from(args)
+    case = told_case_from(args)
     for name, option in (("begin", "from"), ("end", "to"), ("count", "count")):
         if getattr(args, name) is not None:
             raise InputError(f"--{option} belongs to a run, and '{args.run}' is a case.")

@@ -13,6 +13,12 @@ RESULTS = "results.zarr"
 _NAMED = 4  # runs that a sentence names
 
 
+def check_no_file(path: Path) -> None:
+    """InputError if what is to be a folder for output is a file."""
+    if path.exists() and not path.is_dir():
+        raise InputError(f"'{path}' is a file; name a folder for the output.", where="out")
+
+
 def check_run(path: Path) -> None:
     """InputError unless a path is the folder of a run that has results; it says what it is."""
     if not (path / RESULTS).exists():

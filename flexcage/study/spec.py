@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from flexcage._version import __version__
 from flexcage.case import Case, load_case, load_extension
@@ -53,6 +53,8 @@ class Study:
     ``outputs.LATE_FIGURES`` ("fatigue_life", "wear_depth_rate").
     ``keep`` is what stays of a case: its whole run, or its figures only.
     """
+
+    called: ClassVar[str] = "The study"
 
     name: str = option("study", doc="name, for titles and folders")
     case: Case = option(doc="the base case")

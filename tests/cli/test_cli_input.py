@@ -59,7 +59,7 @@ MISTAKES = {
     "narrow pocket": (["modes", EXAMPLE, "--set", "cage.pocket_width=7 mm"], ["-1 mm"]),
     "big defect": (["run", EXAMPLE, "--set", "defects.0.displacement=2 mm"], ["assembly"]),
     "mesh format": (["mesh", EXAMPLE, "-o", "cage.stl"], ["'cage.stl' should end in .msh"]),
-    "mesh folder": (["mesh", EXAMPLE, "-o", "none/cage.msh"], ["not a folder"]),
+    "mesh folder": (["mesh", EXAMPLE, "-o", "none/cage.msh"], ["no folder 'none'", "make it"]),
     "other preset": (
         ["run", EXAMPLE, "--set", "bearing.preset=N1014"],
         ["'N1014'", "presets are", "N1013"],
@@ -89,8 +89,61 @@ def folders(elsewhere):
         (elsewhere / name).write_text("")
 
 
+ORDERS = {
+    "case before command": ["mine.toml", "run"],
+    "run before command": ["runs/good"],
+    "quiet after it": ["static", "-q", "mine.toml"],
+    "spaces in --set": ["run", "mine.toml", "--set", "load.radial", "=", "5 N"],
+    "a unit apart": ["run", "mine.toml", "--set", "load.radial=5", "N"],
+    "a key as an option": ["run", "mine.toml", "--speed", "6000"],
+}
+ORDERS_SAY = {
+    "case before command": "the command comes first, as in: flexcage run mine.toml",
+    "run before command": "the command comes first, as in: flexcage report runs/good",
+    "quiet after it": "-q stands before the command: flexcage -q ...",
+    "spaces in --set": '--set takes one word, as --set "load.radial=500 N"',
+    "a unit apart": '--set takes one word, as --set "load.radial=500 N"',
+    "a key as an option": "a value of the case is changed by --set PATH=VALUE",
+}
+
+
+@pytest.mark.parametrize("name", ORDERS)
+def test_words_in_a_wrong_order_are_told_the_right_one(name, capsys, folders):
+    with pytest.raises(SystemExit) as left:
+        cli.main(ORDERS[name])
+    assert left.value.code == 2 and ORDERS_SAY[name] in (text := sentence(capsys)), text
+
+
+WRONG_KEYS = {
+    "at the root": ("speed = '6000 rpm'", "'speed'; it stands in a section, as drive.speed."),
+    "two sections": (
+        "radial_clearance = '10 um'",
+        "it stands in a section, as bearing.radial_clearance",
+    ),
+    "a preset": ("bearing = 'N1013'", 'a preset is named as bearing.preset = "N1013".'),
+}
+
+
+@pytest.mark.parametrize("name", WRONG_KEYS)
+def test_keys_out_of_place_are_told_their_place(name, capsys, elsewhere):
+    line, words = WRONG_KEYS[name]
+    more = "" if name == "a preset" else '[bearing]\npreset = "N1013"\n'
+    (elsewhere / "mine.toml").write_text(f"{line}\n{more}")
+    assert cli.main(["run", "mine.toml"]) == 2
+    assert words in (text := sentence(capsys)), text
+    setting = line.replace(" = ", "=").replace("'", "")
+    assert cli.main(["run", EXAMPLE, "--set", setting]) == 2
+    assert words in (text := sentence(capsys)), text
+
+
+def test_a_study_is_called_one(capsys, elsewhere):
+    (elsewhere / "s.toml").write_text(f'case = "{EXAMPLE}"\n')
+    assert cli.main(["study", "run", "s.toml"]) == 2
+    assert sentence(capsys).startswith("The study lacks 'outputs'")
+
+
 WRONG_FOLDERS = {
-    "a case": (["render", "mine.toml"], "it is a file, of which 'flexcage run mine.toml' makes one"),
+    "a case": (["render", "mine.toml"], "a file, of which 'flexcage run mine.toml' makes one"),
     "a picture": (["wear", "a.png"], "'a.png' is not the folder of a run: it is a file."),
     "a folder of runs": (["fatigue", "runs"], "it holds 'runs/good', 'runs/other'; name one of"),
     "a study": (["export", "study"], "it is that of a study, whose runs are in 'study/cases'"),
@@ -101,7 +154,7 @@ WRONG_FOLDERS = {
     "no folder": (["run", "nowhere/mine.toml"], "there is no folder 'nowhere'"),
     "a run as a study": (["study", "resume", "runs/good"], "it is that of a run"),
     "a case as a study": (["study", "status", "mine.toml"], "'flexcage study run mine.toml' makes"),
-    "no study": (["study", "run", "mne.toml"], "no study file 'mne.toml'; the nearest one there is"),
+    "no study": (["study", "run", "mne.toml"], "no study file 'mne.toml'; the nearest one there"),
     "no extension": (["run", "mine.toml", "--use", "law.py"], "There is no file 'law.py'; --use"),
 }  # fmt: skip
 
