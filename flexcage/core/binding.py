@@ -50,6 +50,8 @@ class Binder:
         if dataclasses.is_dataclass(table) and isinstance(table, cls):
             return table
         if not isinstance(table, Mapping):
+            if isinstance(table, list) and all(isinstance(row, Mapping) for row in table):
+                raise _brackets(where, "a list of tables", "one table", "[{}]", "[[{}]]")
             raise wrong_type(table, "a table of values", where)
         cls = chosen_spec(cls, table, base)
         known = {f.name: f for f in dataclasses.fields(cls) if f.init}
@@ -122,6 +124,8 @@ class Binder:
 
     def _sequence(self, kinds: tuple, meta: Mapping, value: Any, where: str) -> tuple:
         if isinstance(value, (str, Mapping)) or not isinstance(value, Iterable):
+            if isinstance(value, Mapping) and kinds and dataclasses.is_dataclass(kinds[0]):
+                raise _brackets(where, "one table", "a list of tables", "[[{}]]", "[{}]")
             raise wrong_type(value, "a list", where)
         items = list(value)
         if len(kinds) == 2 and kinds[1] is Ellipsis:
@@ -561,6 +565,15 @@ def _in_words(field: dataclasses.Field) -> str:
     doc, unit = field.metadata.get("doc"), field.metadata.get("unit")
     told = ", ".join(filter(None, (doc, unit and f"in {unit}")))
     return f"'{field.name}' ({told})" if told else f"'{field.name}'"
+
+
+def _brackets(where: str, found: str, wanted: str, right: str, wrong: str) -> InputError:
+    """Error for a table where a list of tables belongs, or the other way round."""
+    return InputError(
+        f"{where} is {found}, but should be {wanted}: write {right.format(where)} in place of "
+        f"{wrong.format(where)}.",
+        where=where,
+    )
 
 
 def wrong_type(value: Any, wanted: str, where: str) -> InputError:

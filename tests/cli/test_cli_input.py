@@ -114,6 +114,20 @@ def test_words_in_a_wrong_order_are_told_the_right_one(name, capsys, folders):
     assert left.value.code == 2 and ORDERS_SAY[name] in (text := sentence(capsys)), text
 
 
+BRACKETS = {
+    "one for many": ("[defects]\ntype = 'crack'", "write [[defects]] in place of [defects]."),
+    "many for one": ("[[cage]]\nmaterial = 'PEEK'", "write [cage] in place of [[cage]]."),
+}
+
+
+@pytest.mark.parametrize("name", BRACKETS)
+def test_brackets_of_another_number(name, capsys, elsewhere):
+    text, words = BRACKETS[name]
+    (elsewhere / "mine.toml").write_text(f'[bearing]\npreset = "N1013"\n{text}\n')
+    assert cli.main(["run", "mine.toml"]) == 2
+    assert words in (said := sentence(capsys)), said
+
+
 WRONG_KEYS = {
     "at the root": ("speed = '6000 rpm'", "'speed'; it stands in a section, as drive.speed."),
     "two sections": (
