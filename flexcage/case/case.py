@@ -166,7 +166,10 @@ class Case(StaticCase):
     def difference(self, other: Case) -> dict[str, tuple[Any, Any]]:
         """Values of this case and of another that differ and count, by dotted path; None where
         a case has none."""
-        mine, its = (dict(flat(case.to_table())) for case in (self, other))
+        mine, its = (
+            {k: v for k, v in flat(case.to_table()) if v != []}  # entries speak for a list
+            for case in (self, other)
+        )
         left_out = (*_NOT_PHYSICS, "bearing.preset")
         keys = (k for k in {**its, **mine} if not {k, k.partition(".")[0]} & {*left_out})
         return {k: (mine.get(k), its.get(k)) for k in keys if mine.get(k) != its.get(k)}
