@@ -13,12 +13,13 @@ from flexcage.case import Case
 from flexcage.compiling import begin_compiling, build_bearing
 from flexcage.core.binding import expect
 from flexcage.core.locks import held
+from flexcage.core.output_folders import check_no_file
 from flexcage.core.timing import Stages
 from flexcage.integrate.integration import Integration
 from flexcage.results.store import MemoryRunStore
 from flexcage.run import Run, warnings_at_start
 from flexcage.run.cost import note_pace, told_cost
-from flexcage.run.folder import begun_store, check_written, open_folder
+from flexcage.run.folder import begun_store, check_written, open_folder, tell_unfinished
 from flexcage.run.foreseen import told_already, told_before
 from flexcage.run.storing import run_store, stored_cage
 from flexcage.stages import assembled_start, made_cage
@@ -47,6 +48,7 @@ def simulate(
     if out is None:
         return _simulated(case, None, None, None, stress, progress)
     folder = Path(out)
+    check_no_file(folder)
     if resume:
         check_written(folder)
     with held(folder, inside=True):
@@ -94,6 +96,7 @@ def load_run(folder: str | Path, *, progress: Any = None) -> Run:
     ignored with a warning.
     """
     case, store, edited = open_folder(Path(folder))
+    tell_unfinished(Path(folder), store, case.solver.duration)
     stages = Stages(progress)
     mesh, cage = stored_cage(case, store, Path(folder), stages)
     return Run(case, store, Path(folder), mesh, cage, stages=stages, edited=edited)

@@ -11,6 +11,7 @@ import numpy as np
 from flexcage.bearings import sections_of, statics_of
 from flexcage.case import Case, StaticCase
 from flexcage.case.odd_values import odd_values
+from flexcage.case.unread import not_used
 from flexcage.contacts.spec import EhlTraction
 from flexcage.core.binding import expect
 from flexcage.core.errors import EnvironmentLacks, InputError
@@ -40,7 +41,7 @@ def solve_static(case: StaticCase, *, options: StaticOptions | None = None) -> S
         rings=Rings(case.inner_ring, case.outer_ring, sections_of(case.bearing)),
         seat=compliance_of(case.mount, case.bearing),
     )  # fmt: skip
-    said = tuple(text for _, text in odd_values(case))
+    said = (*not_used(case), *(text for _, text in odd_values(case)))
     return replace(solution, warnings=(*said, *solution.warnings)) if said else solution
 
 

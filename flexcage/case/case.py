@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from math import pi
@@ -21,6 +21,7 @@ from flexcage.case.static import StaticCase
 from flexcage.case.tables import (
     ALIASES,
     as_table,
+    refuse_name,
     with_preset,
     without_aliases,
     words_of_text,
@@ -82,10 +83,6 @@ class Case(StaticCase):
     output: OutputOptions = option(OutputOptions(), doc="what is kept of a run")
     limits: Limits = option(Limits(), doc="limits beyond which a start is refused")
     seed: int = option(0, doc="seed of everything random in a bearing: sizes, places", minimum=0)
-    given: tuple[str, ...] | None = dataclasses.field(
-        default=None, compare=False,
-        metadata={"doc": "paths of values that the user gave; a preset's and defaults are not"},
-    )  # fmt: skip
 
     _in_motion = True
 
@@ -115,13 +112,9 @@ class Case(StaticCase):
         with words_of_text():
             return binder.bind(cls, _with_cage(merged, binder), "")
 
-    def _given(self, pairs: dict[str, Any]) -> dict[str, Any]:
-        if self.given is None or "given" in pairs:
-            return pairs
-        return {**pairs, "given": tuple(sorted({*self.given, *_given_by(pairs)}))}
-
     def _prepared(self, where: str, value: Any, binder: Binder) -> Any:
         if where == "bearing":
+            refuse_name(value)
             refuse_without_motion(value)
         if where == "cage" and isinstance(value, Mapping):
             with words_of_text():
@@ -173,7 +166,10 @@ class Case(StaticCase):
     def difference(self, other: Case) -> dict[str, tuple[Any, Any]]:
         """Values of this case and of another that differ and count, by dotted path; None where
         a case has none."""
-        mine, its = (dict(flat(case.to_table())) for case in (self, other))
+        mine, its = (
+            {k: v for k, v in flat(case.to_table()) if v != []}  # entries speak for a list
+            for case in (self, other)
+        )
         left_out = (*_NOT_PHYSICS, "bearing.preset")
         keys = (k for k in {**its, **mine} if not {k, k.partition(".")[0]} & {*left_out})
         return {k: (mine.get(k), its.get(k)) for k in keys if mine.get(k) != its.get(k)}
@@ -274,25 +270,6 @@ def _with_cage(table: dict[str, Any], binder: Binder) -> dict[str, Any]:
     bearing = binder.bind(Bearing, table["bearing"], "bearing")
     cage = binder.bind(bearing.cage_spec, table["cage"], "cage")
     return {**table, "bearing": bearing, "cage": cage}
-
-
-def _given_by(pairs: Mapping[str, Any]) -> Iterator[str]:
-    """Paths of the values that changes give, those of a table or a spec one by one."""
-    for path, value in pairs.items():
-        if isinstance(value, Mapping):
-            yield from (inner for inner, _ in flat(value, path))
-        elif dataclasses.is_dataclass(value):
-            yield from _differing(value, path)
-        yield path
-
-
-def _differing(spec: Any, where: str) -> Iterator[str]:
-    """Paths of the values of a spec, and of specs inside it, that are not as by default."""
-    for field in dataclasses.fields(spec):
-        value, path = getattr(spec, field.name), f"{where}.{field.name}"
-        if value != default_of(field):
-            inside = dataclasses.is_dataclass(value) and not isinstance(value, type)
-            yield from _differing(value, path) if inside else (path,)
 
 
 def _at(spec: Any, path: str) -> Any:

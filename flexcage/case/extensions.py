@@ -14,6 +14,7 @@ from pathlib import Path
 from flexcage.case.presets import register_preset
 from flexcage.core import users_files
 from flexcage.core.errors import FlexcageError, InputError
+from flexcage.core.missing import no_file
 
 _loaded: list[str] = []
 
@@ -49,7 +50,8 @@ def load_extension(source: str | Path) -> None:
         path = Path(source).expanduser().resolve()
         text = str(path)
         if not path.is_file():
-            raise InputError(f"There is no file '{source}' to load.", where="use", value=text)
+            what = no_file("file", Path(source), (path.suffix,))
+            raise InputError(f"{what}; --use loads one.", where="use", value=text)
     if text in _loaded:
         return
     code = [path] if is_file and text.endswith(".py") else [] if is_file else _code_of(text)

@@ -8,6 +8,7 @@ from typing import Any
 
 from flexcage.case.tables import expanded
 from flexcage.core.errors import InputError
+from flexcage.core.missing import no_file
 from flexcage.core.toml import read_toml
 
 
@@ -32,7 +33,7 @@ def _text(path: Path) -> str:
     try:
         return path.read_text("utf-8-sig")  # some editors begin a file with a byte order mark
     except FileNotFoundError:
-        sentence = f"There is no case file '{path}'."
+        sentence = f"{no_file('case file', path, ('.toml',))}."
     except IsADirectoryError:
         sentence = f"'{path}' is a folder; name the .toml case file in it."
     except PermissionError:

@@ -7,7 +7,7 @@ same files.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -60,6 +60,10 @@ class StaticCase:
     outer_ring: OuterRing = option(OuterRing(), doc="how the outer ring bends, if it does")
     mount: Mount = option(Mount(), doc="what holds the outer ring")
     static: StaticOptions = option(StaticOptions(), doc="how a static solution is meant")
+    given: tuple[str, ...] | None = dataclasses.field(
+        default=None, compare=False,
+        metadata={"hidden": True, "doc": "paths of values that the user gave, not of defaults"},
+    )  # fmt: skip
 
     elsewhere: ClassVar[Mapping[str, str]] = SURROUNDINGS
     _in_motion = False  # does it read all of [mount], or the housing's body alone?
@@ -102,6 +106,7 @@ class StaticCase:
         with words_of_text():
             asked = {k: v for k, v in merged.items() if k in own}
             asked["mount"] = _body_alone(merged.get("mount", {}))
+            asked["given"] = _read_paths(without_aliases(table), own)
             case: StaticCase = binder.bind(StaticCase, asked, "")
             if "cage" in merged:
                 cage = binder.bind(case.bearing.cage_spec, merged["cage"], "cage")
@@ -141,8 +146,10 @@ class StaticCase:
         return kind(**_values(bare))
 
     def _given(self, pairs: dict[str, Any]) -> dict[str, Any]:
-        """Values to replace, with what follows from their being given."""
-        return pairs
+        """Values to replace, and among them the paths of all that the user gave."""
+        if self.given is None or "given" in pairs:
+            return pairs
+        return {**pairs, "given": tuple(sorted({*self.given, *_given_by(pairs)}))}
 
     def _prepared(self, where: str, value: Any, binder: Binder) -> Any:
         """A value to replace, as it is set."""
@@ -183,6 +190,17 @@ def _body_alone(mount: Any) -> Any:
     return {name: value for name, value in mount.items() if name in _STATIC_MOUNT}
 
 
+def _read_paths(table: Mapping[str, Any], own: set[str]) -> list[str]:
+    """Paths of the values that were given in a case's tables, those that a static solution reads;
+    tables that were written as complete name them."""
+
+    def is_read(path: str) -> bool:
+        head, _, name = path.partition(".")
+        return head in own and (head != "mount" or name in _STATIC_MOUNT)
+
+    return sorted(filter(is_read, table.get("given") or (path for path, _ in flat(table))))
+
+
 def _asked_nothing() -> dict[str, Any]:
     """Sections as by default."""
     names = (
@@ -197,6 +215,25 @@ def _of_a_simulation() -> set[str]:
 
     simulated, still = ({f.name for f in dataclasses.fields(cls)} for cls in (Case, StaticCase))
     return simulated - still
+
+
+def _given_by(pairs: Mapping[str, Any]) -> Iterator[str]:
+    """Paths of the values that changes give, those of a table or a spec one by one."""
+    for path, value in pairs.items():
+        if isinstance(value, Mapping):
+            yield from (inner for inner, _ in flat(value, path))
+        elif dataclasses.is_dataclass(value):
+            yield from _differing(value, path)
+        yield path
+
+
+def _differing(spec: Any, where: str) -> Iterator[str]:
+    """Paths of the values of a spec, and of specs inside it, that are not as by default."""
+    for field in dataclasses.fields(spec):
+        value, path = getattr(spec, field.name), f"{where}.{field.name}"
+        if value != default_of(field):
+            inside = dataclasses.is_dataclass(value) and not isinstance(value, type)
+            yield from _differing(value, path) if inside else (path,)
 
 
 def _values(case: StaticCase) -> dict[str, Any]:

@@ -29,7 +29,8 @@ def without_aliases(table: Mapping[str, Any]) -> dict[str, Any]:
 
 def with_preset(table: dict[str, Any]) -> dict[str, Any]:
     """Tables of the preset that a case names, overridden by its own."""
-    name = table.get("preset")
+    name, bearing = table.get("preset"), table.get("bearing")
+    refuse_name(bearing)
     if isinstance(name, int) and not isinstance(name, bool):
         name = str(name)  # many designations are
         table = {**table, "preset": name}
@@ -38,6 +39,17 @@ def with_preset(table: dict[str, Any]) -> dict[str, Any]:
     if not isinstance(name, str):
         raise InputError(f"bearing.preset is {name!r}, but should be text.", where="bearing.preset")
     return _merge(_without_other_cage(load_preset(name), table), table)
+
+
+def refuse_name(bearing: Any) -> None:
+    """InputError for a bearing that is a name alone: it says how a preset is named."""
+    if isinstance(bearing, str):
+        raise InputError(
+            f"bearing is '{bearing}', but should be a table of values; a preset is named as "
+            f'bearing.preset = "{bearing}".',
+            where="bearing",
+            value=bearing,
+        )
 
 
 def _without_other_cage(preset: Preset, table: Mapping[str, Any]) -> Mapping[str, Any]:

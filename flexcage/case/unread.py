@@ -13,6 +13,7 @@ from flexcage.core.unread import unread, why_unread
 
 if TYPE_CHECKING:
     from flexcage.case.case import Case
+    from flexcage.case.static import StaticCase
 
 _WORDS = ("name", "description", "preset", "static", "given")  # read by people, or by no run
 _RIGID = "cage.model is 'rigid'"
@@ -22,11 +23,13 @@ _NEVER = {  # of materials beside the cage's, whose strength and damping no figu
 }
 
 
-def reasons(case: Case) -> dict[str, str]:
+def reasons(case: StaticCase) -> dict[str, str]:
     """Dotted paths of values that nothing reads in such a case, and why: half a sentence. The path
     of a section stands for all values in it."""
     found = dict(unread(case))
-    for rule in (_in_contacts, _in_materials, _of_a_rigid_cage, _of_round_pockets, _in_loads):
+    moving = hasattr(case, "cage")  # a static solution has none
+    of_cages = (_on_lands, _of_a_rigid_cage, _of_round_pockets) if moving else ()
+    for rule in (_in_contacts, _in_materials, *of_cages, _in_loads):
         found.update(rule(case))
     if case.mount.body:  # the outer ring moves in its housing, bending or not
         for name in ("seat", "relaxation", "foundation", "diameter"):
@@ -34,7 +37,7 @@ def reasons(case: Case) -> dict[str, str]:
     return found
 
 
-def not_used(case: Case) -> Iterator[str]:
+def not_used(case: StaticCase) -> Iterator[str]:
     """A sentence on all values that were given and that nothing reads; none if all are read.
 
     A rigid cage leaves those of a flexible one alone: a comparison runs one case as both.
@@ -50,14 +53,18 @@ def not_used(case: Case) -> Iterator[str]:
         yield f"Given, but not used: {'; '.join(parts)}."
 
 
-def _in_contacts(case: Case) -> Iterator[tuple[str, str]]:
-    bearing, cage = case.bearing, case.cage
+def _in_contacts(case: StaticCase) -> Iterator[tuple[str, str]]:
+    bearing = case.bearing
     for place in ("race", "pocket", "side", "rib"):
         if place not in bearing.places:
             article = "an" if bearing.kind[0] in "aeiou" else "a"
             yield f"contacts.{place}", f"{article} {bearing.kind} has no such contact"
         elif place not in bearing.sliced:
             yield f"contacts.{place}.slices", f"{bearing.element}s touch there in points"
+
+
+def _on_lands(case: Case) -> Iterator[tuple[str, str]]:
+    bearing, cage = case.bearing, case.cage
     if bearing.land(cage) is None:
         why = f"no ring guides the cage: cage.guidance is '{cage.guidance}'"
         if any(stop is not None for stop in bearing.stops(cage)):
@@ -67,7 +74,7 @@ def _in_contacts(case: Case) -> Iterator[tuple[str, str]]:
             yield "contacts.land", f"the cage meets no land: cage.guidance is '{cage.guidance}'"
 
 
-def _in_materials(case: Case) -> Iterator[tuple[str, str]]:
+def _in_materials(case: StaticCase) -> Iterator[tuple[str, str]]:
     for name, why in _NEVER.items():
         yield f"bearing.material.{name}", why
         for ring in ("inner_ring", "outer_ring"):
@@ -94,7 +101,7 @@ def _of_round_pockets(case: Case) -> Iterator[tuple[str, str]]:
         yield "modes.crossbeams", why
 
 
-def _in_loads(case: Case) -> Iterator[tuple[str, str]]:
+def _in_loads(case: StaticCase) -> Iterator[tuple[str, str]]:
     load = case.load
     if load.times:
         yield f"load.{load.varies}", "load.times is given"

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from flexcage.core.errors import FlexcageError, InputError, unwritable
 from flexcage.core.locks import LOCK, check_free, held
+from flexcage.core.output_folders import check_no_file, check_run
 
 _OURS = ("case.toml", "results.zarr", "compare.json")  # one of them is in every folder of ours
 
@@ -26,7 +27,7 @@ def prepare_out(
 
     ``force`` empties one that holds a file named in ``ours``.
     """
-    _check_folder(out)
+    check_no_file(out)
     if resume:
         from flexcage.run.folder import check_written
 
@@ -53,7 +54,7 @@ def prepare_out(
 def run_folder(out: Path, *, resume: bool, force: bool) -> Iterator[None]:
     """The folder of a run, prepared for its output and held, so that no other process writes there
     or empties it meanwhile."""
-    _check_folder(out)
+    check_no_file(out)
     if resume:
         prepare_out(out, resume=True, force=False)  # before our own lock lies there
     with ExitStack() as stack:
@@ -64,11 +65,6 @@ def run_folder(out: Path, *, resume: bool, force: bool) -> Iterator[None]:
         if not resume:
             prepare_out(out, resume=False, force=force)
         yield
-
-
-def _check_folder(out: Path) -> None:
-    if out.exists() and not out.is_dir():
-        raise InputError(f"'{out}' is a file; name a folder for the output.", where="out")
 
 
 def _holds_nothing(out: Path) -> bool:
@@ -115,6 +111,10 @@ def prepare_file(path: Path, endings: Iterable[str], *, force: bool) -> None:
         raise InputError(f"'{path}' is a folder; name a file.", where="out", value=str(path))
     if (path.exists() or path.is_symlink()) and not force:
         raise InputError(f"'{path}' exists already; --force writes it anew.", where="out")
+    if not path.parent.exists():
+        raise InputError(
+            f"There is no folder '{path.parent}' for '{path}'; make it first.", where="out"
+        )
     if not path.parent.is_dir() or not os.access(path.parent, os.W_OK):
         raise InputError(f"'{path.parent}' is not a folder that can be written.", where="out")
 
@@ -122,6 +122,5 @@ def prepare_file(path: Path, endings: Iterable[str], *, force: bool) -> None:
 def existing_run(path: str | Path) -> Path:
     """Folder of a stored run, or InputError."""
     path = Path(path)
-    if not (path / "results.zarr").exists():
-        raise InputError(f"'{path}' is not the folder of a run: it has no results.zarr.")
+    check_run(path)
     return path

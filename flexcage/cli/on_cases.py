@@ -9,7 +9,7 @@ from typing import Any
 
 from flexcage.cli.files import prepare_file, prepare_out, run_folder
 from flexcage.cli.parser import case_options, command, picture_options, say
-from flexcage.cli.settings import case_from, look_of, settings_of
+from flexcage.cli.settings import case_from, look_of, settings_of, told_case_from
 from flexcage.core.errors import InputError
 from flexcage.core.garbage import while_loading
 
@@ -125,7 +125,7 @@ def static_command(args: argparse.Namespace) -> int:
 
 def mesh_command(args: argparse.Namespace) -> int:
     """flexcage mesh CASE: build, check and write the cage's mesh."""
-    case = case_from(args)
+    case = told_case_from(args)
     out = Path(args.out) if args.out else Path(f"{case.name}.msh")
     from flexcage.cages.build import build_cage_mesh
     from flexcage.core.progress import Progress
@@ -145,7 +145,7 @@ def mesh_command(args: argparse.Namespace) -> int:
 
 def modes_command(args: argparse.Namespace) -> int:
     """flexcage modes CASE: the modal basis of the cage, as a table printed and stored."""
-    case = case_from(args)
+    case = told_case_from(args)
     out = Path(args.out) if args.out else Path(f"{case.name}_modes.csv")
     prepare_file(out, (".csv",), force=args.force)
     from flexcage.core.progress import Progress

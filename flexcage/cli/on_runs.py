@@ -10,8 +10,9 @@ from typing import Any
 
 from flexcage.cli.files import existing_run, prepare_file, prepare_out
 from flexcage.cli.parser import command, picture_options, say
-from flexcage.cli.settings import case_from, look_of
+from flexcage.cli.settings import case_from, look_of, told_case_from
 from flexcage.core.errors import InputError
+from flexcage.core.output_folders import check_either
 
 
 def add_commands(commands: Any) -> None:
@@ -167,7 +168,7 @@ def _export_body(args: argparse.Namespace) -> int:
     if args.table:
         raise InputError(f"--table belongs to a run, and '{args.run}' is a case.", where="table")
     args.case = args.run
-    case = case_from(args)
+    case = told_case_from(args)
     for name, option in (("begin", "from"), ("end", "to"), ("count", "count")):
         if getattr(args, name) is not None:
             raise InputError(f"--{option} belongs to a run, and '{args.run}' is a case.")
@@ -218,13 +219,7 @@ def report_command(args: argparse.Namespace) -> int:
     is_study = (folder / "study.toml").is_file() and (folder / "plan.json").is_file()
     points = _numbers(args.points) if args.points else None
     if not is_study:
-        if not folder.is_dir():
-            raise InputError(f"There is no folder '{folder}'; name that of a run or a study.")
-        if not (folder / "results.zarr").exists():
-            raise InputError(
-                f"'{folder}' is neither a run nor a study: it has no results.zarr, and no "
-                "study.toml with its plan.json."
-            )
+        check_either(folder)
         if points is not None:
             raise InputError(f"--points belongs to a study, and '{folder}' is a run.")
     out = Path(args.out) if args.out else folder / "report.html"

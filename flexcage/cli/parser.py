@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from typing import Any, NoReturn
 
 from flexcage._version import __version__
-from flexcage.core.binding import did_you_mean
+from flexcage.core.binding import did_you_mean, near_names
 from flexcage.core.errors import in_one_line
 
 
 def say(text: object = "") -> None:
     """Write to standard output: what the command was asked for."""
     sys.stdout.write(f"{text}\n")
+
+
+_BEFORE = ("-v", "--verbose", "-q", "--quiet", "--version")
 
 
 class _Parser(argparse.ArgumentParser):
@@ -29,15 +33,27 @@ class _Parser(argparse.ArgumentParser):
         unknown = next((text for text in rest if text.startswith("-")), None)
         if unknown is not None:
             name = unknown.partition("=")[0]
+            if name in _BEFORE:
+                self.error(f"{name} stands before the command: flexcage {name} ...")
             known = [option for action in self._actions for option in action.option_strings]
-            self.error(f"{self.prog} has no option {name}; {did_you_mean(name, known, 'it takes')}")
+            near = near_names(name, known, 1, cutoff=0.75)
+            hint = f"the nearest known one is '{near[0]}'" if near else (
+                f"it takes {', '.join(known)}" if "--set" not in known
+                else "a value of the case is changed by --set PATH=VALUE"
+            )  # fmt: skip
+            self.error(f"{self.prog} has no option {name}; {hint}")
         if rest:
-            self.error(f"{self.prog} takes no '{rest[0]}' here")
+            apart = "--set" in map(str, args or ()) and (rest[0] == "=" or "=" not in rest[0])
+            hint = '; --set takes one word, as --set "load.radial=500 N"' if apart else ""
+            self.error(f"{self.prog} takes no '{rest[0]}' here{hint}")
         return found, rest
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         if action.choices is not None and value not in action.choices:
             what = action.metavar or "/".join(action.option_strings)
+            if what == "COMMAND" and (value.endswith(".toml") or os.path.isdir(value)):
+                takes = "run" if value.endswith(".toml") else "report"
+                self.error(f"the command comes first, as in: {self.prog} {takes} {value}")
             known = did_you_mean(str(value), action.choices, "choose from")
             self.error(f"{what} '{value}' is not known; {known}")
 

@@ -21,6 +21,18 @@ def case_from(args: argparse.Namespace) -> Any:
     return load_case(Path(args.case), overrides=overrides)
 
 
+def told_case_from(args: argparse.Namespace) -> Any:
+    """The same, for commands that simulate nothing: logs which given values nothing reads."""
+    import logging
+
+    from flexcage.case.unread import not_used
+
+    case = case_from(args)
+    for text in not_used(case):
+        logging.getLogger(__name__).warning("%s", text)
+    return case
+
+
 def settings_of(args: argparse.Namespace) -> dict[str, Any]:
     """Values of --set by path."""
     return dict(parse_setting(text) for text in args.set or ())

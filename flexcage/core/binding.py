@@ -50,6 +50,8 @@ class Binder:
         if dataclasses.is_dataclass(table) and isinstance(table, cls):
             return table
         if not isinstance(table, Mapping):
+            if isinstance(table, list) and all(isinstance(row, Mapping) for row in table):
+                raise _brackets(where, "a list of tables", "one table", "[{}]", "[[{}]]")
             raise wrong_type(table, "a table of values", where)
         cls = chosen_spec(cls, table, base)
         known = {f.name: f for f in dataclasses.fields(cls) if f.init}
@@ -65,7 +67,7 @@ class Binder:
             values, base = common_values(base, cls), None
         for key, value in table.items():
             if key not in known:
-                raise unknown_key(key, known, where, getattr(cls, "elsewhere", {}))
+                raise unknown_key(key, _shown(known), where, _elsewhere(cls, key, where))
             default = getattr(base, key) if base is not None else default_of(known[key])
             path = join(where, key)
             values[key] = self.field_value(known[key], hints(cls)[key], value, path, base=default)
@@ -73,7 +75,7 @@ class Binder:
             return dataclasses.replace(base, **values)
         lacking = [f for n, f in known.items() if n not in values and default_of(f) is MISSING]
         if lacking:
-            raise missing_keys(lacking, where)
+            raise missing_keys(lacking, where, getattr(cls, "called", "The case"))
         return cls(**values)
 
     def field_value(
@@ -122,6 +124,8 @@ class Binder:
 
     def _sequence(self, kinds: tuple, meta: Mapping, value: Any, where: str) -> tuple:
         if isinstance(value, (str, Mapping)) or not isinstance(value, Iterable):
+            if isinstance(value, Mapping) and kinds and dataclasses.is_dataclass(kinds[0]):
+                raise _brackets(where, "one table", "a list of tables", "[[{}]]", "[{}]")
             raise wrong_type(value, "a list", where)
         items = list(value)
         if len(kinds) == 2 and kinds[1] is Ellipsis:
@@ -171,7 +175,7 @@ def set_path(spec: Any, path: str, value: Any, binder: Binder, *, where: str = "
         raise InputError(f"{where} is a single value; '{path}' leads nowhere.", where=where)
     known = {f.name: f for f in dataclasses.fields(spec) if f.init}
     if head not in known:
-        raise unknown_key(head, known, where, getattr(spec, "elsewhere", {}))
+        raise unknown_key(head, _shown(known), where, _elsewhere(type(spec), head, where))
     here, old = join(where, head), getattr(spec, head)
     field, hint = known[head], hints(type(spec))[head]
     if not rest:
@@ -502,6 +506,33 @@ def flat(table: Any, where: str = "") -> list[tuple[str, Any]]:
     return rows
 
 
+def _shown(fields: Mapping[str, dataclasses.Field]) -> list[str]:
+    """Names of the fields that files may have."""
+    return [name for name, field in fields.items() if not field.metadata.get("hidden")]
+
+
+def _elsewhere(cls: Any, key: str, where: str) -> dict[str, str]:
+    """What there is in the place of a key, by pattern; at the root, the sections that have it."""
+    found = dict(getattr(cls, "elsewhere", {}))
+    kinds = {} if where else hints(cls)
+    rooms = [
+        f"{name}.{key}"
+        for name, hint in kinds.items()
+        if any(key in _names_below(kind) for kind in union_members(hint))
+    ]
+    if rooms:
+        found[re.escape(key)] = f"it stands in a section, as {' or '.join(rooms)}"
+    return found
+
+
+def _names_below(kind: Any) -> set[str]:
+    """Names of the fields of a dataclass and of those derived from it; none of other types."""
+    if not (isinstance(kind, type) and dataclasses.is_dataclass(kind)):
+        return set()
+    own = {field.name for field in dataclasses.fields(kind)}
+    return own.union(*map(_names_below, kind.__subclasses__()))
+
+
 def unknown_key(
     key: str, known: Iterable[str], where: str, elsewhere: Mapping[str, str] = MappingProxyType({})
 ) -> InputError:
@@ -516,9 +547,11 @@ def unknown_key(
     )
 
 
-def missing_keys(fields: Sequence[dataclasses.Field], where: str) -> InputError:
-    """Error for all values of one table that must be given and are not."""
-    place = f"[{where}]" if where else "The case"
+def missing_keys(
+    fields: Sequence[dataclasses.Field], where: str, called: str = "The case"
+) -> InputError:
+    """Error for all values of one table that must be given and are not; ``called``: the root."""
+    place = f"[{where}]" if where else called
     first, names = fields[0], [_in_words(field) for field in fields]
     text = f"{', '.join(names[:-1])} and {names[-1]}" if names[1:] else names[0]
     choices = first.metadata.get("choices") if not names[1:] else None
@@ -532,6 +565,15 @@ def _in_words(field: dataclasses.Field) -> str:
     doc, unit = field.metadata.get("doc"), field.metadata.get("unit")
     told = ", ".join(filter(None, (doc, unit and f"in {unit}")))
     return f"'{field.name}' ({told})" if told else f"'{field.name}'"
+
+
+def _brackets(where: str, found: str, wanted: str, right: str, wrong: str) -> InputError:
+    """Error for a table where a list of tables belongs, or the other way round."""
+    return InputError(
+        f"{where} is {found}, but should be {wanted}: write {right.format(where)} in place of "
+        f"{wrong.format(where)}.",
+        where=where,
+    )
 
 
 def wrong_type(value: Any, wanted: str, where: str) -> InputError:

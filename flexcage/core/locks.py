@@ -63,6 +63,22 @@ def abandon() -> None:
             folder.rmdir()  # if nothing was put into it
 
 
+def is_held(folder: Path) -> bool:
+    """Does another process, or another thread, write to ``folder``?"""
+    import filelock
+
+    path = folder / LOCK
+    if folder.resolve() in _mine.get() or path.is_symlink() or not path.is_file():
+        return False
+    lock = filelock.FileLock(path)
+    try:
+        lock.acquire(timeout=0)
+    except (filelock.Timeout, OSError):
+        return True
+    lock.release()
+    return False
+
+
 def check_free(folder: Path) -> None:
     """InputError if another process writes to ``folder``, or to one inside of it."""
     import filelock

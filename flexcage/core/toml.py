@@ -9,6 +9,9 @@ from typing import Any
 from flexcage.core.errors import InputError
 
 _ESCAPE = re.compile(r"backslash|[Ee]scape|hex")  # of tomllib's reasons
+_PLACE = re.compile(r"at line (\d+)")
+_BARE = re.compile(r"\s*([\w.]+)\s*=\s*([-+.\d]+\s*[^\W\d][^\"'#]*)(?:#.*)?$")  # name = 1 kN
+_CURLY = "\u201c\u201d\u201e\u00ab\u00bb\u2018\u2019"
 _DEEPEST = 20  # tables and lists in one another; a case has five
 
 
@@ -18,11 +21,7 @@ def read_toml(text: str, name: str, *, where: str = "") -> dict[str, Any]:
         table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as exc:
         reason = str(exc).rstrip(".")
-        if _ESCAPE.search(reason):
-            reason += (
-                "; in double quotes a backslash begins a special character: write a path as "
-                "'C:\\folder\\file' in single quotes, or with '/'"
-            )
+        reason += _remedy(reason, text)
         raise InputError(f"{name} is not valid TOML: {reason}.", where=where) from exc
     except ValueError as exc:  # Python reads whole numbers of up to 4300 digits
         raise InputError(
@@ -36,6 +35,32 @@ def read_toml(text: str, name: str, *, where: str = "") -> dict[str, Any]:
     if level:
         raise _too_deep(name, where)
     return table
+
+
+def _remedy(reason: str, text: str) -> str:
+    """What to write where TOML stopped, by the mistakes that people make most."""
+    if _ESCAPE.search(reason):
+        return (
+            "; in double quotes a backslash begins a special character: write a path as "
+            "'C:\\folder\\file' in single quotes, or with '/'"
+        )
+    place = _PLACE.search(reason)
+    line = _lines(text)[int(place[1]) - 1 :][:1] if place else []
+    stopped = line[0] if line else ""
+    if twice := re.search(r"Cannot declare \((.*?),?\) twice", reason):
+        name = ".".join(part.strip(" '\"") for part in twice[1].split(","))
+        return f"; [{name}] stands twice: write all its values under one"
+    if any(quote in stopped for quote in _CURLY):
+        return '; its quotes are typographic ones: write straight ones, as "1 kN"'
+    if bare := _BARE.match(stopped):
+        return f'; a value with a unit stands in quotes: {bare[1]} = "{bare[2].strip()}"'
+    if stopped.count('"') % 2 or stopped.count("'") % 2:
+        return "; a quote is missing at the end of a value"
+    return ""
+
+
+def _lines(text: str) -> list[str]:
+    return text.replace("\r\n", "\n").split("\n")
 
 
 def _inside(value: Any) -> list[Any]:

@@ -26,6 +26,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.core.errors import FlexcageError, InputError, unwritable
+from flexcage.core.missing import no_file
 from flexcage.core.writing import written
 from flexcage.mesh.cage_mesh import (
     CageMesh,
@@ -35,6 +36,7 @@ from flexcage.mesh.cage_mesh import (
 from flexcage.mesh.files.abaqus import read_inp
 from flexcage.mesh.files.ansys import read_cdb
 from flexcage.mesh.files.msh import read_msh
+from flexcage.mesh.files.others import no_mesh
 from flexcage.mesh.files.raw import RawMesh, Refused, first_alike, group_name
 from flexcage.mesh.files.sound import (
     faces_counted,
@@ -176,15 +178,17 @@ def _with_sectors(mesh: CageMesh) -> CageMesh:
 
 
 def _read_raw(path: Path) -> RawMesh:
+    if path.is_dir():
+        raise InputError(f"{path} is a folder; name a mesh file", where="mesh.file")
     reader = _READERS.get(path.suffix.lower())
     if reader is None:
         raise InputError(
-            f"{path} is no mesh file that can be read: .msh, .inp, .cdb or .vtu",
+            no_mesh(path, ".msh, .inp, .cdb or .vtu"),
             where="mesh.file",
             value=str(path),
         )
     if not path.is_file():
-        raise InputError(f"there is no mesh file {path}", where="mesh.file", value=str(path))
+        raise InputError(no_file("mesh file", path), where="mesh.file", value=str(path))
     try:
         return reader(path)
     except FlexcageError:

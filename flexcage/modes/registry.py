@@ -11,6 +11,7 @@ import numpy as np
 from scipy.linalg import eigvalsh
 
 from flexcage.core.errors import InputError
+from flexcage.core.missing import no_file
 from flexcage.core.registry import add, check_free, source_of
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import FEModel
@@ -72,7 +73,7 @@ def check_files(spec: ModesSpec) -> None:
     for name in ("body", "body_nodes"):
         file = getattr(spec, name)
         if file and not Path(file).is_file():
-            raise InputError(f"There is no file '{file}'.", where=f"modes.{name}", value=file)
+            raise InputError(f"{no_file('file', Path(file))}.", where=f"modes.{name}", value=file)
 
 
 def basis_version(spec: ModesSpec) -> tuple[str | bytes, ...]:

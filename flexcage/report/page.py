@@ -33,6 +33,8 @@ class PageTooLarge(InputError):
 def write_page(page: Page, path: str | Path) -> Path:
     """Write the page to ``path`` in one move; InputError if it is too big or cannot be written."""
     path = Path(path)
+    if path.suffix != ".html":
+        raise InputError(f"'{path}' should end in .html.", where="out", value=str(path))
     text = html(page).encode()
     if len(text) > LIMIT:
         raise PageTooLarge(

@@ -22,8 +22,8 @@ def make_room(path: Path, overwrite: bool) -> None:
         if path.exists() and any(path.iterdir()):
             if not overwrite:
                 raise InputError(
-                    f"{path} exists already and is not empty; choose another folder, or say that "
-                    "it is to be overwritten.",
+                    f"{path} exists already and is not empty; choose another folder, remove this "
+                    "one, or go on with its run (in Python, resume=True).",
                     where="path",
                     value=str(path),
                 )

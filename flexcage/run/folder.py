@@ -18,7 +18,8 @@ from flexcage.case import Case, load_case
 from flexcage.case.extensions import sources
 from flexcage.core.binding import flat
 from flexcage.core.errors import FlexcageError, InputError, unwritable
-from flexcage.core.locks import LOCK
+from flexcage.core.locks import LOCK, is_held
+from flexcage.core.output_folders import check_run
 from flexcage.core.sources import physics
 from flexcage.core.warning import RunWarning
 from flexcage.core.writing import check_own, replace
@@ -214,6 +215,7 @@ def kept_cage(folder: Path, store: MemoryRunStore) -> CageRecord:
 def open_folder(folder: Path) -> tuple[Case, MemoryRunStore, tuple[RunWarning, ...]]:
     """The case and the store of a run folder. The case is that of the results: an edit of
     case.toml is ignored, and the warning names it."""
+    check_run(folder)
     check_links(folder)
     store = RunStore.open(folder / "results.zarr")
     text = _kept(store, "case")
@@ -227,6 +229,29 @@ def open_folder(folder: Path) -> tuple[Case, MemoryRunStore, tuple[RunWarning, .
     )
     log.warning(warning.text)
     return case, store, (warning,)
+
+
+def tell_unfinished(folder: Path, store: MemoryRunStore, duration: float) -> None:
+    """Log that a stored run is not finished, so that what is made of it is of a part;
+    InputError if it has no sample yet. ``duration`` [s]: of the whole run."""
+    if store.complete:
+        return
+    busy, n = is_held(folder), store.n_time
+    now, way = "is still being computed", "wait until it has finished"
+    if not busy:
+        again = f"flexcage run {folder / 'case.toml'} -o {folder} --resume"
+        now, way = "was stopped", f"'{again}' goes on with it"
+    if not n:
+        raise InputError(
+            f"The run in '{folder}' {now}, and has no sample yet; {way}.",
+            where="run",
+            value=str(folder),
+        )
+    reached = float(store.layout.coords["time"][1][n - 1])
+    log.warning(
+        "the run in '%s' %s: this is of its first %.4g ms of %.4g ms; %s",
+        folder, now, 1e3 * reached, 1e3 * duration, way,
+    )  # fmt: skip
 
 
 def _check_hash(folder: Path, case: Case, store: MemoryRunStore) -> None:
@@ -255,7 +280,7 @@ def _edit(path: Path, text: str, case: Case) -> str:
     except (FlexcageError, OSError, ValueError) as exc:
         return f"'{path}' was changed after the run and is no case any more ({exc})"
     was, now = dict(flat(case.to_table())), dict(flat(edited.to_table()))
-    keys = [key for key in {**was, **now} if was.get(key) != now.get(key)]
+    keys = [k for k in {**was, **now} if was.get(k) != now.get(k) and k != "given"]
     return f"'{path}' was edited after the run{_named(keys, now, was)}" if keys else ""
 
 

@@ -17,6 +17,7 @@ from flexcage.case import Case
 from flexcage.core import html
 from flexcage.core.binding import Binder, check_spec, expect
 from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.core.output_folders import check_no_file
 from flexcage.core.progress import Silent
 from flexcage.core.timing import Stages
 from flexcage.core.units import parse
@@ -295,7 +296,7 @@ class Run:
             return write_series(folder, "cage", self.mesh.points, self.mesh.tets, series)
 
     def write_table(
-        self, path: str | Path, variables: Sequence[str] | None = None, *, force: bool = False
+        self, path: str | Path, variables: Sequence[str] | str | None = None, *, force: bool = False
     ) -> list[Path]:
         """Write variables over time as a table (.csv, .parquet) or as matrices (.mat) for other
         programs; paths of the files, one for each time axis where there are several.
@@ -335,6 +336,7 @@ class Run:
         from flexcage.run.pictures import draw_pictures
 
         check_format(format)
+        check_no_file(Path(folder))
         names = [only] if isinstance(only, str) else list(only)
         given = {"view": view, "stress_limit": stress_limit, "scale": scale}
         look = Binder(si=True).bind(Look, given, "")

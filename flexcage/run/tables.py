@@ -19,10 +19,11 @@ _STEPS = {"time": ("step_time", "s"), "step": ("step_size", "s")}
 
 
 def write_table(
-    run: Run, path: Path, variables: Sequence[str] | None = None, *, force: bool = False
+    run: Run, path: Path, variables: Sequence[str] | str | None = None, *, force: bool = False
 ) -> list[Path]:
     """Write variables of a run, see ``Run.write_table``."""
     export.check_ending(path)  # before anything is computed
+    variables = [variables] if isinstance(variables, str) else variables
     ds, names = _tabled(run, variables)
     return export.write_table(ds, path, names, force=force)
 

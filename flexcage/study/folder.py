@@ -29,6 +29,7 @@ from typing import Any
 from flexcage.core.errors import InputError, unwritable
 from flexcage.core.hashing import seal_holds, sealed
 from flexcage.core.locks import LOCK, held
+from flexcage.core.output_folders import check_study
 from flexcage.core.reading import read_json
 from flexcage.core.warning import RunWarning
 from flexcage.core.writing import check_own, replace, sync
@@ -103,10 +104,7 @@ class Folder:
 
     def _text_file(self) -> Path:
         _own(*(self.path / name for name in _ITS_OWN))
-        if not (self.path / "study.toml").is_file():
-            raise InputError(
-                f"'{self.path}' is not the folder of a study: it has no study.toml.", where="study"
-            )
+        check_study(self.path)
         return self.path / "study.toml"
 
     def about(self) -> tuple[About, tuple[Planned, ...]]:

@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -56,6 +56,8 @@ class Map:
     ``conditions`` are points as of a study's list, each with its ``label``. ``starts`` runs of
     every point and condition begin with pushes of their own.
     """
+
+    called: ClassVar[str] = "The map"
 
     name: str = option("map", doc="name, for titles and folders")
     case: Case = option(doc="the base case")

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from flexcage._version import __version__
 from flexcage.case import Case, load_case, load_extension
@@ -16,6 +16,7 @@ from flexcage.case.presets import NAMED
 from flexcage.case.toml import write_toml
 from flexcage.core.binding import Binder, check_spec, to_table, unit_at, wrong_type
 from flexcage.core.errors import InputError
+from flexcage.core.missing import no_file
 from flexcage.core.spec import option, quantity
 from flexcage.core.toml import read_toml
 from flexcage.core.units import format_si, parse
@@ -52,6 +53,8 @@ class Study:
     ``outputs.LATE_FIGURES`` ("fatigue_life", "wear_depth_rate").
     ``keep`` is what stays of a case: its whole run, or its figures only.
     """
+
+    called: ClassVar[str] = "The study"
 
     name: str = option("study", doc="name, for titles and folders")
     case: Case = option(doc="the base case")
@@ -228,6 +231,8 @@ def read_file(path: Path) -> dict[str, Any]:
         text = path.read_text("utf-8-sig")
     except UnicodeDecodeError as exc:
         raise InputError(f"'{path}' is not a text file; a study is TOML text in UTF-8.") from exc
+    except FileNotFoundError as exc:
+        raise InputError(f"{no_file('study file', path, ('.toml',))}.", value=str(path)) from exc
     except OSError as exc:
         reason = (exc.strerror or str(exc)).lower()
         raise InputError(f"The study file '{path}' cannot be read ({reason}).") from exc

@@ -297,3 +297,10 @@ def test_what_a_run_does_not_reach_is_told(case, changes, told):
     table = {"drive.times": ["20 ms", "30 ms"], "drive.speeds": ["6000 rpm", "7000 rpm"]}
     found = list(not_reached(case.replace({**ramp, **table, **changes})))
     assert len(found) == len(told) and all(b in a for a in found for b in told if b[:5] in a)
+
+
+def test_a_difference_in_a_list_names_its_entries_alone():
+    bent = load_case("examples/n1013.toml")
+    found = bent.difference(bent.replace("defects", ()))
+    assert "defects.0.displacement" in found and "defects" not in found
+    assert found["defects.0.crossbeam"][1] is None

@@ -13,6 +13,7 @@ import flexcage
 from flexcage import stages
 from flexcage.bearings.cylindrical_roller.start import geometric_guess, rolling_velocities
 from flexcage.case.unread import not_used, reasons
+from flexcage.cli import main
 from flexcage.core.binding import flat
 from flexcage.core.errors import InputError
 from flexcage.core.units import split
@@ -98,6 +99,51 @@ GIVEN_IN_VAIN = [
 def test_a_key_given_in_vain_is_named_with_the_reason(name, changes, said):
     case = flexcage.load_case(f"examples/{name}.toml").replace(changes)
     assert list(not_used(case)) == [f"Given, but not used: {said}."]
+
+
+AT_REST = [
+    ("c7010_static", {"contacts.rib.friction.law": "step_coulomb"},
+     "contacts.rib.friction.law (an angular contact ball bearing has no such contact)"),
+    ("c7010_static", {"load.direction": "20 deg"}, "load.direction (there is no radial load)"),
+    ("nu210", {"bearing.material.loss_factor": 0.1}, "bearing.material.loss_factor (rings and "
+     "rolling elements have no modal damping)"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "changes", "said"), AT_REST)
+def test_a_static_solution_says_it_too(name, changes, said):
+    """Once, only what moves said so; the sentence stands in the table and in the JSON."""
+    case = flexcage.load_static(f"examples/{name}.toml", overrides=changes)
+    solution = flexcage.solve_static(case)
+    assert list(not_used(case)) == [text := f"Given, but not used: {said}."]
+    assert text in solution.warnings
+    again = flexcage.load_static(case.to_toml())  # as it lies in the folder
+    assert list(not_used(again)) == [text] and again == case
+
+
+@pytest.mark.parametrize("name", sorted(p.stem for p in Path("examples").glob("*.toml")
+                                        if "study" not in p.name))  # fmt: skip
+def test_examples_give_a_static_solution_no_key_in_vain(name):
+    assert list(not_used(flexcage.load_static(f"examples/{name}.toml"))) == []
+
+
+def test_what_only_a_run_reads_is_no_mistake_of_a_static_solution():
+    changed = flexcage.load_case("examples/n1013.toml").replace(
+        {"mount.kind": "bushing", "mount.stiffness": 1e8, "contacts.pocket.slices": 12}
+    )
+    still = flexcage.load_static(changed.to_toml())
+    assert list(not_used(still)) == []
+
+
+@pytest.mark.parametrize("command", ["mesh", "modes", "export"])
+def test_commands_that_simulate_nothing_say_it_once(command, tmp_path, monkeypatch, capsys):
+    """With an output that is refused, so that nothing is computed."""
+    example = str(Path("examples/n1013.toml").resolve())
+    monkeypatch.chdir(tmp_path)
+    argv = [command, example, "--set", "mount.stiffness=1 N/m", "-o", "wrong.xyz"]
+    assert main(argv) == 2
+    said = capsys.readouterr().err
+    assert said.count("mount.stiffness (mount.kind is 'fixed')") == 1, said
 
 
 def test_a_case_that_is_compared_with_a_rigid_cage_keeps_its_modes_in_silence():

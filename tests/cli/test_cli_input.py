@@ -59,7 +59,7 @@ MISTAKES = {
     "narrow pocket": (["modes", EXAMPLE, "--set", "cage.pocket_width=7 mm"], ["-1 mm"]),
     "big defect": (["run", EXAMPLE, "--set", "defects.0.displacement=2 mm"], ["assembly"]),
     "mesh format": (["mesh", EXAMPLE, "-o", "cage.stl"], ["'cage.stl' should end in .msh"]),
-    "mesh folder": (["mesh", EXAMPLE, "-o", "none/cage.msh"], ["not a folder"]),
+    "mesh folder": (["mesh", EXAMPLE, "-o", "none/cage.msh"], ["no folder 'none'", "make it"]),
     "other preset": (
         ["run", EXAMPLE, "--set", "bearing.preset=N1014"],
         ["'N1014'", "presets are", "N1013"],
@@ -68,15 +68,116 @@ MISTAKES = {
     "drill": (["run", EXAMPLE, "--set", "drive.speed=6000000 rpm"], ["centrifugal"]),
     "clearance": (["run", EXAMPLE, "--set", "bearing.radial_clearance=5 mm"], ["0.4 mm"]),
     "overload": (["run", EXAMPLE, "--set", "load.radial=500 kN"], ["4 times", "51 kN"]),
-    "no run": (["render", "nothing"], ["not the folder of a run"]),
+    "no run": (["render", "nothing"], ["no folder 'nothing'; name the folder of a run"]),
     "three to compare": (
         ["compare", "a", "b", "c"],
         ["one case", "or two run folders", "given a b c"],
     ),
     "one run to compare": (["compare", "."], ["one case", "two run folders", "given ."]),
-    "compare no run": (["compare", "a", "b"], ["'a' is not the folder of a run"]),
+    "compare no run": (["compare", "a", "b"], ["no folder 'a'; name the folder of a run"]),
     "nothing to resume": (["run", EXAMPLE, "-o", "nothing", "--resume"], ["not the folder of a"]),
 }
+
+
+@pytest.fixture
+def folders(elsewhere):
+    """A run, a study, a comparison and a run that has not begun, by their names; and two files."""
+    for name in ("runs/good/results.zarr", "runs/other/results.zarr", "both/rigid/results.zarr",
+                 "study/cases", "begun"):  # fmt: skip
+        (elsewhere / name).mkdir(parents=True)
+    for name in ("study/study.toml", "both/compare.json", "begun/case.toml", "mine.toml", "a.png"):
+        (elsewhere / name).write_text("")
+
+
+ORDERS = {
+    "case before command": ["mine.toml", "run"],
+    "run before command": ["runs/good"],
+    "quiet after it": ["static", "-q", "mine.toml"],
+    "spaces in --set": ["run", "mine.toml", "--set", "load.radial", "=", "5 N"],
+    "a unit apart": ["run", "mine.toml", "--set", "load.radial=5", "N"],
+    "a key as an option": ["run", "mine.toml", "--speed", "6000"],
+}
+ORDERS_SAY = {
+    "case before command": "the command comes first, as in: flexcage run mine.toml",
+    "run before command": "the command comes first, as in: flexcage report runs/good",
+    "quiet after it": "-q stands before the command: flexcage -q ...",
+    "spaces in --set": '--set takes one word, as --set "load.radial=500 N"',
+    "a unit apart": '--set takes one word, as --set "load.radial=500 N"',
+    "a key as an option": "a value of the case is changed by --set PATH=VALUE",
+}
+
+
+@pytest.mark.parametrize("name", ORDERS)
+def test_words_in_a_wrong_order_are_told_the_right_one(name, capsys, folders):
+    with pytest.raises(SystemExit) as left:
+        cli.main(ORDERS[name])
+    assert left.value.code == 2 and ORDERS_SAY[name] in (text := sentence(capsys)), text
+
+
+BRACKETS = {
+    "one for many": ("[defects]\ntype = 'crack'", "write [[defects]] in place of [defects]."),
+    "many for one": ("[[cage]]\nmaterial = 'PEEK'", "write [cage] in place of [[cage]]."),
+}
+
+
+@pytest.mark.parametrize("name", BRACKETS)
+def test_brackets_of_another_number(name, capsys, elsewhere):
+    text, words = BRACKETS[name]
+    (elsewhere / "mine.toml").write_text(f'[bearing]\npreset = "N1013"\n{text}\n')
+    assert cli.main(["run", "mine.toml"]) == 2
+    assert words in (said := sentence(capsys)), said
+
+
+WRONG_KEYS = {
+    "at the root": ("speed = '6000 rpm'", "'speed'; it stands in a section, as drive.speed."),
+    "two sections": (
+        "radial_clearance = '10 um'",
+        "it stands in a section, as bearing.radial_clearance",
+    ),
+    "a preset": ("bearing = 'N1013'", 'a preset is named as bearing.preset = "N1013".'),
+}
+
+
+@pytest.mark.parametrize("name", WRONG_KEYS)
+def test_keys_out_of_place_are_told_their_place(name, capsys, elsewhere):
+    line, words = WRONG_KEYS[name]
+    more = "" if name == "a preset" else '[bearing]\npreset = "N1013"\n'
+    (elsewhere / "mine.toml").write_text(f"{line}\n{more}")
+    assert cli.main(["run", "mine.toml"]) == 2
+    assert words in (text := sentence(capsys)), text
+    setting = line.replace(" = ", "=").replace("'", "")
+    assert cli.main(["run", EXAMPLE, "--set", setting]) == 2
+    assert words in (text := sentence(capsys)), text
+
+
+def test_a_study_is_called_one(capsys, elsewhere):
+    (elsewhere / "s.toml").write_text(f'case = "{EXAMPLE}"\n')
+    assert cli.main(["study", "run", "s.toml"]) == 2
+    assert sentence(capsys).startswith("The study lacks 'outputs'")
+
+
+WRONG_FOLDERS = {
+    "a case": (["render", "mine.toml"], "a file, of which 'flexcage run mine.toml' makes one"),
+    "a picture": (["wear", "a.png"], "'a.png' is not the folder of a run: it is a file."),
+    "a folder of runs": (["fatigue", "runs"], "it holds 'runs/good', 'runs/other'; name one of"),
+    "a study": (["export", "study"], "it is that of a study, whose runs are in 'study/cases'"),
+    "a comparison": (["report", "both"], "it is that of a comparison, whose runs are 'both/rigid'"),
+    "a run not begun": (["render", "begun"], "its run has not come to its first results"),
+    "a run misspelt": (["wear", "runs/goood"], "the nearest one there is 'runs/good'"),
+    "no ending": (["run", "mine"], "no case file 'mine'; the nearest one there is 'mine.toml'"),
+    "no folder": (["run", "nowhere/mine.toml"], "there is no folder 'nowhere'"),
+    "a run as a study": (["study", "resume", "runs/good"], "it is that of a run"),
+    "a case as a study": (["study", "status", "mine.toml"], "'flexcage study run mine.toml' makes"),
+    "no study": (["study", "run", "mne.toml"], "no study file 'mne.toml'; the nearest one there"),
+    "no extension": (["run", "mine.toml", "--use", "law.py"], "There is no file 'law.py'; --use"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", WRONG_FOLDERS)
+def test_a_path_of_another_kind_is_told_what_it_is(name, capsys, folders):
+    argv, words = WRONG_FOLDERS[name]
+    assert cli.main(argv) == 2
+    assert words in (text := sentence(capsys)), text
 
 
 @pytest.mark.parametrize("name", MISTAKES)

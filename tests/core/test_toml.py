@@ -16,6 +16,34 @@ BAD = {
 }
 
 
+SLIPS = {
+    "curly quotes": ("radial = \u201c1 kN\u201d", 'write straight ones, as "1 kN"'),
+    "low quotes": ("radial = \u201e1 kN\u201c", "typographic"),
+    "no quotes": ("[load]\nradial = 1.5 kN", 'in quotes: radial = "1.5 kN"'),
+    "no quotes, a comment": ("radial = 1kN # heavy", 'in quotes: radial = "1kN"'),
+    "no end": ('radial = "1 kN\n[drive]', "a quote is missing at the end"),
+    "a table twice": ("[load]\na = 1\n[load]\nb = 2", r"[load] stands twice: write all its"),
+    "one twice below": ("[a.b]\n[a.b]", "[a.b] stands twice"),
+    "windows": ("a = 1\r\nradial = 1 kN\r\n", 'radial = "1 kN"'),
+    "a path": ('file = "c:\\users\\a"', "single quotes"),
+}
+
+
+@pytest.mark.parametrize("name", SLIPS)
+def test_a_slip_of_the_pen_is_told_what_to_write(name):
+    text, words = SLIPS[name]
+    with pytest.raises(InputError) as caught:
+        read_toml(text, "It")
+    assert words in str(caught.value) and "not valid TOML" in str(caught.value)
+
+
+@pytest.mark.parametrize("text", ["a = \n", "a == 1", "= 3", "[a"])
+def test_other_mistakes_are_told_no_wrong_remedy(text):
+    with pytest.raises(InputError) as caught:
+        read_toml(text, "It")
+    assert str(caught.value).count(";") == 0
+
+
 @pytest.mark.parametrize("name", BAD)
 def test_every_reader_says_it_in_one_sentence(name, tmp_path):
     text, words = BAD[name]

@@ -48,6 +48,13 @@ def test_a_cage_in_millimetres(n1013, tmp_path, kind):
         assert len(read.groups[name]) == len(mesh.groups[name]), name
 
 
+@pytest.mark.parametrize("end", ["N,R5.3,LOC,       -1,", "N,UNBL,LOC,       -1,"])
+def test_nodes_may_end_as_any_release_ends_them(n1013, tmp_path, end):
+    path = write_cdb(n1013(fineness="coarse"), tmp_path / "cage.cdb")
+    path.write_text(path.read_text().replace("N,R5.3,LOC,       -1,", end))
+    assert read_mesh(path, unit="mm").pocket_count == 22
+
+
 def test_a_component_that_is_missing_is_named(n1013, tmp_path):
     path = write_cdb(n1013(fineness="coarse"), tmp_path / "cage.cdb", leave_out="pocket3_rear")
     with pytest.raises(InputError, match="has no surface group 'pocket3_rear'"):

@@ -368,13 +368,53 @@ def test_cut_off_file_is_refused(n1013, tmp_path):
             read_mesh(path)
 
 
+OTHERS = {
+    "cage.bdf": "is a Nastran deck, in which surfaces have no names; export the mesh",
+    "cage.unv": r"converts it with its groups:  gmsh -save \S*cage.unv -o \S*cage.msh",
+    "cage.med": "is a mesh of Salome; gmsh converts it",
+    "cage.STL": "is a shape without a volume mesh; mesh it",
+    "cage.vtk": "save it in ParaView as .vtu",
+    "cage.msh.gz": "is packed; unpack it",
+    "cage.odb": "write its input file",
+    "fluent.msh": "is a mesh of Ansys Fluent; write an archive by CDWRITE",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_files_of_others_are_told_what_to_write(tmp_path, name):
+    (tmp_path / name).write_bytes(b'(0 "GAMBIT to Fluent File")\n(2 3)\n')
+    with pytest.raises(InputError, match=OTHERS[name]):
+        read_mesh(tmp_path / name)
+
+
+def test_groups_come_through_a_universal_file(n1013, tmp_path):
+    """What the message says to do, done."""
+    import gmsh
+
+    mesh = n1013(fineness="coarse")
+    path = write_mesh(mesh, tmp_path / "cage.msh")
+    for source, into in ((path, "cage.unv"), (tmp_path / "cage.unv", "again.msh")):
+        gmsh.initialize(interruptible=False, readConfigFiles=False)
+        try:
+            gmsh.option.setNumber("General.Verbosity", 0)
+            gmsh.option.setNumber("Mesh.SaveGroupsOfElements", 1)
+            gmsh.open(str(source))
+            gmsh.write(str(tmp_path / into))
+        finally:
+            gmsh.finalize()
+    read = read_mesh(tmp_path / "again.msh")
+    assert {n: len(t) for n, t in read.groups.items()} == {
+        n: len(t) for n, t in mesh.groups.items()
+    }
+
+
 def test_absent_unknown_and_unnamed_files(n1013, tmp_path):
     mesh = n1013(fineness="coarse")
-    with pytest.raises(InputError, match="there is no mesh file"):
+    with pytest.raises(InputError, match="There is no mesh file"):
         read_mesh(tmp_path / "none.msh")
-    (tmp_path / "cage.stl").write_text("solid")
+    (tmp_path / "cage.xyz").write_text("solid")
     with pytest.raises(InputError, match=".msh, .inp, .cdb or .vtu"):
-        read_mesh(tmp_path / "cage.stl")
+        read_mesh(tmp_path / "cage.xyz")
     for suffix in (".msh", ".vtu"):
         plain = meshio.Mesh(mesh.points, [("tetra", mesh.tets)])
         path = tmp_path / f"unnamed{suffix}"

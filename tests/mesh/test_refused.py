@@ -61,6 +61,8 @@ def test_keywords_that_change_the_mesh_are_named_with_their_line(tmp_path, text)
     with pytest.raises(InputError, match=REFUSED[text]) as caught:
         read_mesh(path)
     assert "empty, cut short" not in str(caught.value) and "\n" not in str(caught.value)
+    by_rule = any(word in text for word in ("GEN", "FILL", "COPY", "SYSTEM\n", "IMPERF"))
+    assert not by_rule or "GENERATE" in text or "Job, Write Input" in str(caught.value)
 
 
 GROUPS = {

@@ -276,7 +276,7 @@ BAD = {
     "zero": (lambda b: broken(b, mass=0.0 * b.mass), "the mass matrix is zero"),
     "not finite": (lambda b: broken(b, mass=b.mass * np.nan), "no real numbers"),
     "other sizes": (lambda b: broken(b, mass=b.mass[:9, :9]), "9 x 9, but with 36 coordinates"),
-    "shapes of others": (lambda b: broken(b, shapes=b.shapes[:, :, :4]), "shapes is"),
+    "shapes of others": (lambda b: broken(b, shapes=b.shapes[:, :, :4]), "should have 36 columns"),
 }  # fmt: skip
 
 
@@ -335,6 +335,12 @@ FILES = {
     "cage.mnf": "modal neutral file, whose format is closed; write the same reduction",
     "cage.cdb": "Ansys mesh without matrices",
     "cage.full": "Ansys matrix file in binary",
+    "cage.mat": "is of MATLAB; read it by scipy.io.loadmat, and write arrays K, M, NODES",
+    "cage.op2": "is Nastran's OUTPUT2 in binary; write Nastran's EXTSEOUT(DMIGPCH)",
+    "cage.unv": "is a universal file, whose datasets hold modes or responses and no stiffness",
+    "cage.rst": "is an Ansys database in binary; export its matrices in APDL",
+    "cage.bdf": "is a Nastran deck; name it as body_nodes",
+    "cage.pch.gz": "is packed; unpack it",
     "cage.xyz": "no file of a reduced body that can be read: .npz, .op4, .pch, .mtx",
     "none.npz": "There is no file",
 }
@@ -346,6 +352,51 @@ def test_files_that_are_refused(tmp_path, name):
         (tmp_path / name).write_bytes(b"?")
     with pytest.raises(InputError, match=re.escape(FILES[name])):
         read_body(tmp_path / name)
+
+
+def arrays_of(body, **changed):
+    """What an .npz of a script holds: coordinates named, as in ``changed``."""
+    labels = np.stack([body.dofs[:, 0] + 1, body.dofs[:, 1] + 1], axis=1)
+    return {"K": body.stiffness, "M": body.mass, "NODES": body.nodes, "DOFS": labels, **changed}
+
+
+ARRAYS = {
+    "components from 0": (lambda b: {"DOFS": b.dofs + [1, 0]}, "count components from 0; count"),
+    "all from 0": (lambda b: {"DOFS": b.dofs}, "from 0; count both from 1"),
+    "nodes from 0": (lambda b: {"DOFS": b.dofs + [0, 1]}, "count nodes from 0; count both"),
+    "components over 6": (lambda b: {"DOFS": b.dofs + [1, 7]}, "have the component 9, but"),
+    "nodes transposed": (lambda b: {"NODES": b.nodes.T}, "should have 3 columns; write it transp"),
+    "nodes with numbers": (
+        lambda b: {"NODES": np.column_stack([np.arange(len(b.nodes)), b.nodes])},
+        "x 4, but should have 3 columns.",
+    ),
+    "labels transposed": (lambda b: {"DOFS": b.dofs.T + 1}, "should have 2 columns; write it tran"),
+    "shapes transposed": (
+        lambda b: {"SHAPES": b.shapes.reshape(-1, b.size).T, "DOFS": None},
+        "columns; write it transposed",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ARRAYS)
+def test_arrays_in_another_order_are_refused(model, body, tmp_path, name):
+    """Once, those of another width went into rows of the right one, in a wrong order, and labels
+    from 0 made modal coordinates of nodes' own."""
+    change, words = ARRAYS[name]
+    plain = full(model)
+    modal = body if name.startswith("shapes") else plain
+    arrays = arrays_of(plain) if modal is plain else {"K": body.stiffness, "M": body.mass,
+                                                       "NODES": body.nodes}  # fmt: skip
+    arrays |= change(modal)
+    np.savez(tmp_path / "box.npz", **{k: v for k, v in arrays.items() if v is not None})
+    with pytest.raises(InputError, match=re.escape(words)):
+        read_body(tmp_path / "box.npz")
+
+
+def test_one_sparse_matrix_is_told_how_to_write_two(body, tmp_path):
+    sp.save_npz(tmp_path / "k.npz", sp.csr_matrix(body.stiffness))
+    with pytest.raises(InputError, match="is one sparse matrix, .* each as K.data"):
+        read_body(tmp_path / "k.npz")
 
 
 @pytest.mark.parametrize("ending", [".npz", ".op4", ".mtx", ".pch"])

@@ -189,8 +189,11 @@ def here(tmp_path, monkeypatch):
 
 MISTAKES = {
     "nothing there": (["nowhere"], "no folder 'nowhere'"),
-    "neither": (["empty"], "'empty' is neither a run nor a study"),
-    "a file": (["there.html"], "no folder 'there.html'"),
+    "neither": (
+        ["empty"],
+        "'empty' is not the folder of a run or a study: it has no results.zarr and no",
+    ),
+    "a file": (["there.html"], "'there.html' is not the folder of a run or a study: it is a file"),
     "exists": (["study", "-o", "there.html"], "'there.html' exists already; --force"),
     "ending": (["study", "-o", "page.pdf"], "'page.pdf' should end in .html"),
     "no such folder": (["study", "-o", "none/page.html"], "'none' is not a folder"),

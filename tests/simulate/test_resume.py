@@ -1,6 +1,7 @@
 """A run that stopped goes on as if it had not, bit by bit; what was computed is kept."""
 
 import shutil
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ from simulate_cases import Interrupted, bent, n1013
 
 from flexcage.cli import main
 from flexcage.core.errors import InputError, RunFailed
+from flexcage.core.locks import held, is_held
 from flexcage.integrate import integration, recorded
 from flexcage.results.registry import VARIABLES
 from flexcage.results.store import RunStore
@@ -46,14 +48,27 @@ def assert_same(ours, theirs):
             np.testing.assert_array_equal(ones[column], others[column], err_msg=column)
 
 
+def test_a_run_that_goes_on_is_read_as_one(tmp_path, caplog):
+    with pytest.raises(KeyboardInterrupt):
+        simulate(case_of("rigid"), out=tmp_path, progress=Interrupted(2, BLOCK))
+    with held(tmp_path), ThreadPoolExecutor() as others:
+        assert others.submit(is_held, tmp_path).result() and not is_held(tmp_path)
+        others.submit(load_run, tmp_path).result()
+    assert "is still being computed: this is of its first 2 ms of 5 ms; wait" in caplog.text
+    assert not is_held(tmp_path)
+
+
 @pytest.mark.parametrize(("model", "blocks"), [("rigid", 2), ("flexible", 1), ("flexible", 4)])
-def test_a_resumed_run_is_the_unbroken_one(tmp_path, unbroken, model, blocks):
+def test_a_resumed_run_is_the_unbroken_one(tmp_path, unbroken, model, blocks, caplog):
     case = case_of(model)
     with pytest.raises(KeyboardInterrupt):
         simulate(case, out=tmp_path, progress=Interrupted(blocks, BLOCK))
     kept = RunStore.open(tmp_path / "results.zarr")
     assert kept.blocks == blocks and not kept.complete
     half = load_run(tmp_path).dataset
+    assert f"the run in '{tmp_path}' was stopped: this is of its first {blocks:g} ms of 5 ms" in (
+        caplog.text
+    )
     assert half.sizes["time"] == 50 * blocks and np.isfinite(half["element_position"].values).all()
     watch = Interrupted(10**6, BLOCK)
     resumed = simulate(case, out=tmp_path, resume=True, progress=watch)

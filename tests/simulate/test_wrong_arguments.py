@@ -121,3 +121,22 @@ def test_a_users_picture_or_variable_that_fails_is_told_as_the_users(rigid, tmp_
         monkeypatch.setitem(table, "mine", table.pop("mine"))  # and gone after this test
     with pytest.raises(RunFailed, match=r"variable 'mine' .*boom .*test_wrong_arguments.py, line"):
         simulate(rigid.case)
+
+
+def test_a_file_where_a_folder_belongs(rigid, tmp_path):
+    (file := tmp_path / "a.png").write_text("mine")
+    for call in (
+        lambda: simulate(n1013(SHORT), out=file),
+        lambda: rigid.draw(file),
+    ):
+        refused(call, f"'{file}' is a file; name a folder for the output.")
+    refused(lambda: rigid.report(tmp_path / "page.pdf"), "page.pdf' should end in .html.")
+    assert file.read_text() == "mine" and list(tmp_path.iterdir()) == [file]
+
+
+def test_one_variable_may_be_a_name(rigid, tmp_path):
+    one, listed = (
+        rigid.write_table(tmp_path / f"{k}.csv", names)
+        for k, names in enumerate(("race_force", ["race_force"]))
+    )
+    assert one[0].read_bytes() == listed[0].read_bytes()

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from flexcage.mesh.files.keywords import Block, blocks, real, reals, refuse, whole
+from flexcage.mesh.files.keywords import WRITTEN_OUT, Block, blocks, real, reals, refuse, whole
 from flexcage.mesh.files.raw import RawMesh, Refused, listed, text_of
 from flexcage.mesh.files.sets import Sets, key_of
 
@@ -115,7 +115,7 @@ def _system(deck: Deck, block: Block) -> None:
     if any(numbers[3:]):
         raise Refused(
             f"line {block.line}: *SYSTEM turns the axes of the nodes, and only its shifts are "
-            "followed; write the nodes along the common axes"
+            f"followed; {WRITTEN_OUT}"
         )
     x, y, z, *_ = [*numbers, 0.0, 0.0, 0.0]
     deck.shift = (x, y, z)

@@ -32,7 +32,7 @@ _CHANGES = frozenset(
     "CDREAD *USE *DO EMTGEN ESURF".split()
 )
 _COMMAND = re.compile(r"\s*([/*]?[A-Za-z]+)\s*,")
-_LAST = re.compile(r"^\s*(N|EN)\s*,\s*R\d[^,]*,[^,]*,\s*-1\s*,?\s*$", re.IGNORECASE)
+_LAST = re.compile(r"^\s*(N|EN)\s*,\s*(?:R\d|UNBL)[^,]*,[^,]*,\s*-1\s*,?\s*$", re.IGNORECASE)
 _HEAD = 10  # numbers of an element before its nodes
 _FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
 _SIGNS = {"_px": "+x", "_mx": "-x"}

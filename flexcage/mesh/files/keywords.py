@@ -40,6 +40,11 @@ MATRIX INPUT; MATRIX ASSEMBLE; USER ELEMENT; MATRIX; UEL PROPERTY; SUBSTRUCTURE 
 VALUES AT INFINITY; DESIGN VARIABLES; END PART; END ASSEMBLY
 """
 HARMLESS = frozenset(" ".join(name.split()) for name in _HARMLESS.split(";"))
+#: How its own program writes out a mesh that a deck makes by rules.
+WRITTEN_OUT = (
+    "let its program write the mesh out: in Abaqus/CAE by File, Import, Model, or Part from the "
+    ".odb of a datacheck, and then Job, Write Input"
+)
 _MAKES = {"NGEN": "nodes", "NFILL": "nodes", "NCOPY": "nodes", "NMAP": "nodes",
           "ELGEN": "elements", "ELCOPY": "elements"}  # fmt: skip
 
@@ -115,11 +120,11 @@ def refuse(block: Block) -> None:
     if name in _MAKES:
         raise Refused(
             f"line {line}: *{name} makes {_MAKES[name]} by a rule, and only those written out are "
-            "read; import the deck into its program and export the mesh again"
+            f"read; {WRITTEN_OUT}"
         )
     raise Refused(
-        f"line {line}: *{name} is not followed, and may change nodes, elements or sets; export the "
-        "mesh alone, with all its nodes, elements and surfaces written out"
+        f"line {line}: *{name} is not followed, and may change nodes, elements or sets; delete its "
+        f"block if it does not, or {WRITTEN_OUT}"
     )
 
 

@@ -23,6 +23,7 @@ from flexcage.mesh.files.raw import RawMesh, Refused, first_alike, group_name
 from flexcage.mesh.files.shapes import OTHER_SHAPE, SOLIDS, TRIANGLES, solids_of
 
 _BEGINS = (b"$MeshFormat", b"$Comments", b"$NOD", b"$PhysicalNames")
+_FLUENT = (b"(0 ", b"(1 ", b"(2 ")
 _HEAD = 4096  # bytes, in which the version stands after comments
 _VERSION = re.compile(rb"\$MeshFormat\s+(\d(?:\.[1-9])?)")
 _SECONDS = 600
@@ -54,6 +55,8 @@ def read_msh(path: Path) -> RawMesh:
 
     with path.open("rb") as file:
         first = file.read(_HEAD).lstrip()
+    if first.startswith(_FLUENT):
+        raise Refused("it is a mesh of Ansys Fluent; write an archive by CDWRITE (.cdb) instead")
     if not first.startswith(_BEGINS):  # gmsh would run anything else as a script
         raise ValueError("it does not begin with $MeshFormat")
     version = _VERSION.search(first)

@@ -157,7 +157,8 @@ def _check_balanced(body: ReducedBody, rigid: np.ndarray, where: str) -> None:
     diagonal = stiffness.diagonal()
     per = 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))[:, None]
     force = np.linalg.norm(per * (stiffness @ rigid), axis=0)
-    share = force / np.linalg.norm(per * (abs(stiffness) @ np.abs(rigid)), axis=0)
+    parts = np.linalg.norm(per * (abs(stiffness) @ np.abs(rigid)), axis=0)
+    share = force / np.maximum(parts, np.finfo(float).tiny)
     worst = int(np.argmax(share))
     if share[worst] > _HELD:
         said = f"stiffness times this rigid motion is {share[worst]:.1e} of its parts, not 0"
@@ -184,7 +185,8 @@ def _held(body: ReducedBody, motion: int, said: str, value: float, where: str) -
     way = ("moved along", "turned about")[motion // 3] + f" {'xyz'[motion % 3]}"
     return InputError(
         f"{body.source}: the body resists being {way} as a whole ({said}); reduce it free, without "
-        "supports and springs to the ground, with nodes in the frame of the bearing.",
+        "supports and springs to the ground, with nodes in the frame of the bearing and with "
+        "coordinates in the order of its file's format, or named there.",
         where=where,
         value=value,
     )

@@ -90,6 +90,14 @@ def from_matrices(found: Mapping[str, Any], path: Path, *, where: str) -> Conten
     """Contents of a file that is a table of named matrices."""
     stiffness, mass = picked(found, STIFFNESS), picked(found, MASS)
     if stiffness is None:
+        if {"DATA", "INDICES", "INDPTR"} <= {name.upper() for name in found}:
+            raise InputError(
+                f"{path} is one sparse matrix, as scipy.sparse.save_npz writes it; write K and M "
+                "into one file by numpy.savez, each as K.data, K.indices, K.indptr, K.shape, with "
+                "NODES.",
+                where=where,
+                value=str(path),
+            )
         raise InputError(
             f"{path} has no stiffness matrix; it has {', '.join(sorted(found)[:8]) or 'nothing'}, "
             f"and one of {', '.join(STIFFNESS)} is looked for.",
@@ -98,12 +106,15 @@ def from_matrices(found: Mapping[str, Any], path: Path, *, where: str) -> Conten
         )
     nodes, labels, shapes = picked(found, NODES), picked(found, DOFS), picked(found, SHAPES)
     kinds = picked(found, ("KIND",))
+    size = stiffness.shape[0]
     return Contents(
         stiffness=stiffness,
         mass=mass,
-        labels=None if labels is None else _whole(labels).reshape(-1, 2),
-        points=None if nodes is None else _points(nodes, picked(found, ("NUMBERS",))),
-        shapes=None if shapes is None else _dense(shapes).reshape(-1, stiffness.shape[0]),
+        labels=None if labels is None else _whole(_wide(labels, 2, "DOFS", path, where)),
+        points=None
+        if nodes is None
+        else _points(_wide(nodes, 3, "NODES", path, where), picked(found, ("NUMBERS",))),
+        shapes=None if shapes is None else _wide(shapes, size, "SHAPES", path, where),
         kind=() if kinds is None else _kinds(np.ravel(_dense(kinds)), path, where=where),
     )
 
@@ -143,8 +154,23 @@ def kind_codes(kinds: tuple[str, ...]) -> np.ndarray:
     return np.array([KINDS.index(k if k in KINDS else "elastic") for k in kinds])
 
 
-def _points(nodes: Any, numbers: Any | None) -> Points:
-    places = _dense(nodes).reshape(-1, 3)
+def _wide(matrix: Any, columns: int, name: str, path: Path, where: str) -> np.ndarray:
+    """A dense matrix (m, columns); InputError for one of another width, whose numbers would stand
+    in wrong rows."""
+    found = _dense(matrix)
+    if found.ndim > 1 and found.shape[-1] == columns:
+        return found.reshape(-1, columns)
+    shape = " x ".join(map(str, found.shape))
+    turned = found.ndim == 2 and found.shape[0] == columns
+    raise InputError(
+        f"{path}: {name} is {shape}, but should have {columns} columns"
+        f"{'; write it transposed' if turned else ''}.",
+        where=where,
+        value=shape,
+    )
+
+
+def _points(places: np.ndarray, numbers: Any | None) -> Points:
     given = np.arange(1, len(places) + 1) if numbers is None else np.ravel(_whole(numbers))
     return Points(numbers=given, places=places)
 

@@ -14,7 +14,9 @@ import numpy as np
 import scipy.sparse as sp
 
 from flexcage.core.errors import InputError, unwritable
+from flexcage.core.missing import no_file
 from flexcage.core.writing import written
+from flexcage.mesh.files.others import PACKED, told
 from flexcage.modes.door.body import MODAL, ReducedBody
 from flexcage.modes.door.checks import check_body
 from flexcage.modes.door.contents import Contents, Points
@@ -34,6 +36,25 @@ _REFUSED = {
     "*SMAT,...,IMPORT,SUB and *EXPORT,,MMF, and put them into an .npz with scipy.io.mmread",
 }
 _REFUSED[".full"] = _REFUSED[".sub"].replace("substructure", "matrix file").replace("SUB", "FULL")
+_ARRAYS = "arrays K, M, NODES and SHAPES or DOFS by numpy.savez (.npz)"
+_DMIG = "Nastran's EXTSEOUT(DMIGPCH) or an OUTPUT4 file (.pch, .op4)"
+_REFUSED |= {
+    ".mat": f"is of MATLAB; read it by scipy.io.loadmat, and write {_ARRAYS}",
+    ".op2": f"is Nastran's OUTPUT2 in binary; write {_DMIG} in its place",
+    ".csv": f"is a table; write {_ARRAYS}",
+    **dict.fromkeys((".npy", ".txt", ".h5", ".hdf5"), f"is not read; write {_ARRAYS}"),
+    **dict.fromkeys((".uff", ".unv", ".uf"), "is a universal file, whose datasets hold modes or "
+                    f"responses and no stiffness; write {_ARRAYS}"),
+    **dict.fromkeys((".sim", ".odb", ".fil"), "is Abaqus' own database; write *SUBSTRUCTURE MATRIX "
+                    "OUTPUT, OUTPUT FILE=USER DEFINED (.mtx)"),
+    **dict.fromkeys((".rst", ".db", ".cms", ".rfl"), _REFUSED[".sub"].replace("substructure",
+                    "database")),
+    **dict.fromkeys((".bdf", ".nas", ".dat", ".asm"), "is a Nastran deck; name it as body_nodes, "
+                    f"and give the matrices by {_DMIG}"),
+    ".inp": "is an Abaqus deck; name it as body_nodes, and give the matrices by *SUBSTRUCTURE "
+    "MATRIX OUTPUT, OUTPUT FILE=USER DEFINED (.mtx)",
+    **PACKED,
+}  # fmt: skip
 
 
 def read_body(
@@ -46,14 +67,9 @@ def read_body(
     """
     path = Path(path)
     ending = path.suffix.lower()
-    if ending in _REFUSED:
-        raise InputError(f"{path} {_REFUSED[ending]}.", where=where, value=str(path))
     if ending not in FORMATS:
-        raise InputError(
-            f"{path} is no file of a reduced body that can be read: {', '.join(FORMATS)}.",
-            where=where,
-            value=str(path),
-        )
+        none = f"is no file of a reduced body that can be read: {', '.join(FORMATS)}"
+        raise InputError(f"{told(path, _REFUSED, none)}.", where=where, value=str(path))
     if units not in SYSTEMS:
         raise InputError(
             f"{where}_units is {units!r}, and systems of units are {', '.join(SYSTEMS)}.",
@@ -61,7 +77,7 @@ def read_body(
             value=units,
         )
     if not path.is_file():
-        raise InputError(f"There is no file '{path}'.", where=where, value=str(path))
+        raise InputError(f"{no_file('file', path)}.", where=where, value=str(path))
     contents = _module(ending).read(path, where=where)
     points = read_points(Path(nodes), where=f"{where}_nodes") if str(nodes) else contents.points
     body = _in_si(_body(contents, points, path, where), SYSTEMS[units])
@@ -107,6 +123,7 @@ def _body(contents: Contents, points: Points | None, path: Path, where: str) -> 
         order = np.append(np.argsort(points.numbers, kind="stable"), MODAL)  # in rising order
         dofs[:, 0] = order[dofs[:, 0]]
     else:
+        _check_from_one(labels, points.numbers, path, where)
         dofs = _by_place(labels, points.numbers)
     place = {int(n): i for i, n in enumerate(points.numbers)}
     sets = {name: np.array([place[n] for n in v if n in place]) for name, v in points.sets.items()}
@@ -130,6 +147,32 @@ def _body(contents: Contents, points: Points | None, path: Path, where: str) -> 
         numbers=np.asarray(points.numbers),
         source=str(path),
     )
+
+
+def _check_from_one(labels: np.ndarray, numbers: np.ndarray, path: Path, where: str) -> None:
+    """Refuse labels that count nodes or components from 0, as arrays of Python do."""
+    of_nodes = np.isin(labels[:, 0], numbers)
+    zero = of_nodes & (labels[:, 1] == 0)
+    both = np.isin(labels[:, 0], labels[zero, 0]) & (
+        labels[:, 1] > 0
+    )  # grids, no modal coordinates
+    low = (labels[:, 0] == 0) & (labels[:, 1] > 0) if not (numbers == 0).any() else both
+    for wrong, what in ((both, "components"), (low, "nodes")):
+        if wrong.any():
+            raise InputError(
+                f"{path}: its coordinates (DOFS) count {what} from 0; count both from 1, "
+                "and give modal coordinates the component 0.",
+                where=where,
+                value=int(wrong.sum()),
+            )
+    if labels[:, 1].min(initial=0) < 0 or labels[:, 1].max(initial=0) > 6:
+        odd = int(labels[np.argmax(np.abs(labels[:, 1] - 3)), 1])
+        raise InputError(
+            f"{path}: its coordinates (DOFS) have the component {odd}, but components are 1 to 6, "
+            "and 0 for modal coordinates.",
+            where=where,
+            value=odd,
+        )
 
 
 def _check_shapes(contents: Contents, points: Points, path: Path, where: str) -> None:

@@ -10,7 +10,9 @@ from typing import Any
 import numpy as np
 
 from flexcage.core.errors import InputError
+from flexcage.core.missing import no_file
 from flexcage.mesh.files.abaqus import read_nodes
+from flexcage.mesh.files.others import PACKED, told
 from flexcage.mesh.files.raw import Refused, lines_of, listed, text_of
 from flexcage.modes.door.contents import Points, unreadable
 from flexcage.modes.door.nastran import nastran
@@ -23,13 +25,14 @@ def read_points(path: Path, *, where: str) -> Points:
     """Nodes of a deck, by its ending; InputError for one of another kind, or without nodes."""
     ending = path.suffix.lower()
     if ending not in _READERS:
+        listing = ", ".join(_READERS)
         raise InputError(
-            f"{path} is no file of nodes that can be read: {', '.join(_READERS)}.",
+            f"{told(path, PACKED, f'is no file of nodes that can be read: {listing}')}.",
             where=where,
             value=str(path),
         )
     if not path.is_file():
-        raise InputError(f"There is no file of nodes '{path}'.", where=where, value=str(path))
+        raise InputError(f"{no_file('file of nodes', path)}.", where=where, value=str(path))
     found = _READERS[ending](path, where=where)
     assert found is not None, "a reader raises where a file has no nodes"
     return found
