@@ -25,22 +25,7 @@ def __getattr__(name: str) -> Any:
     except AttributeError:
         if name.startswith("_"):
             raise
-        room = _room_of_old(name)
-        if not room:
-            raise unknown(__name__, name, _all_names()) from None
-    import warnings
-
-    now = f"{room.__name__}.{name}"
-    text = f"flexcage.{name} is now {now}; the old name ends with version 0.2."
-    warnings.warn(text, FutureWarning, stacklevel=2)
-    return getattr(room, name)
-
-
-def _room_of_old(name: str) -> ModuleType | None:
-    """The namespace of a name that stood in flexcage itself before version 0.1."""
-    if name[:1].isupper():
-        return next((room for room in _rooms() if name in room.__all__), None)
-    return None
+        raise unknown(__name__, name, _all_names()) from None
 
 
 def _rooms() -> list[ModuleType]:

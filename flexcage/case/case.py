@@ -35,7 +35,7 @@ from flexcage.core.binding import (
     default_of,
     flat,
 )
-from flexcage.core.hashing import content_hash, counts
+from flexcage.core.hashing import content_hash
 from flexcage.core.registry import source_of
 from flexcage.core.spec import option
 from flexcage.core.unread import why_unread
@@ -75,7 +75,7 @@ class Case(StaticCase):
     modes: ModesSpec = option(ModesSpec(), doc="the cage's modes")
     drive: Drive = option(Drive(), doc="what turns the inner ring")
     constraints: tuple[Constraint, ...] = option(
-        (), doc="what holds or moves rings and cage besides, any number", legacy=()
+        (), doc="what holds or moves rings and cage besides, any number"
     )
     start: StartOptions = option(StartOptions(), doc="how the start departs from equilibrium")
     solver: SolverOptions = option(SolverOptions(), doc="the integrator")
@@ -148,8 +148,8 @@ class Case(StaticCase):
         of the user's own by the file that defines it. Attachments count where there are any: not
         with a rigid cage or round pockets.
         """
-        fields = [f for f in dataclasses.fields(self) if counts(self, f)]
-        physics = {f.name: getattr(self, f.name) for f in fields if f.name not in _NOT_PHYSICS}
+        names = [f.name for f in dataclasses.fields(self) if f.name not in _NOT_PHYSICS]
+        physics = {name: getattr(self, name) for name in names}
         physics["contacts"] = dataclasses.replace(self.contacts, land=self.land)
         if self.cage.temperature is not None:
             physics["cage"] = dataclasses.replace(self.cage, material=self.cage.warm_material)

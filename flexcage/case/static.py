@@ -56,12 +56,8 @@ class StaticCase:
     lubricant: Lubricant = option(Lubricant(), doc="the lubricant")
     drive: Drive = option(Drive(speed=0.0), doc="what turns the inner ring")
     load: Load = option(Load(), doc="what loads the inner ring")
-    inner_ring: InnerRing = option(
-        InnerRing(), doc="how the inner ring bends, if it does", legacy=InnerRing()
-    )
-    outer_ring: OuterRing = option(
-        OuterRing(), doc="how the outer ring bends, if it does", legacy=OuterRing()
-    )
+    inner_ring: InnerRing = option(InnerRing(), doc="how the inner ring bends, if it does")
+    outer_ring: OuterRing = option(OuterRing(), doc="how the outer ring bends, if it does")
     mount: Mount = option(Mount(), doc="what holds the outer ring")
     static: StaticOptions = option(StaticOptions(), doc="how a static solution is meant")
 

@@ -71,6 +71,7 @@ class BallPocketWork(NamedTuple):
     C: np.ndarray  # (6 + n, 6 + n) minus those over velocities
     gen: np.ndarray  # (7, 6 + n) generators
     bend: np.ndarray  # (3, 6 + n) how the depth's slope over the ball's place changes
+    softer: np.ndarray  # (3, 3) how that of the wall's compliance does, over the place
     shape: np.ndarray  # (3, 3, n) modes where the ball touches, and their slopes
 
 
@@ -88,7 +89,7 @@ def ball_pocket_work(stations: int, modes: int) -> BallPocketWork:
     n, z = 6 + modes, np.zeros
     return BallPocketWork(
         z((3, 3)), z((1, stations, 3)), z(1), z(1), z((n, n)), z((n, n)), z((7, n)), z((3, n)),
-        z((3, 3, modes)),
+        z((3, 3)), z((3, 3, modes)),
     )  # fmt: skip
 
 

@@ -2,9 +2,9 @@
 
 The contact's depth is a function of the ball's place in the pocket and of the modes, and the
 elastic force pushes along its slope. So the tangent is a sum of products of two slopes, and of
-forces times bends of the depth. Of these, what the wall's displacement adds to the bends over the
-ball's place is left out (a share of them as large as that displacement beside the pocket's play),
-as are bends of the wall's compliance.
+forces times bends of the depth and of the wall's compliance. Bends over the ball's place are
+differences of these slopes: a ball moves the contact round the pocket by its own way over the
+pocket's play, over which a crown cage's compliance changes several times.
 
 Vectors are in the pocket's axes until ``_to_frame``. Rows and columns: the ball's translation and
 rotation, then n modes. Index letters: c component, m mode.
@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 from flexcage.contacts.ball_pocket import (
     SPHERE,
+    BallInPocket,
     beyond_straight,
     from_middle,
     nearest_wall,
@@ -40,6 +41,7 @@ from flexcage.core.vectors import (
     minus,
     plus,
     put,
+    row,
     times,
     turned,
     turned_back,
@@ -52,6 +54,7 @@ HERE, AROUND, POLEWARDS = range(3)
 # rows of ``gen``: sliding along the pocket's axes (0 to 2); depth; elastic force; what the normal
 # force follows by place; the wrench that a unit of it is, with its friction
 DEPTH, ELASTIC, BY_PLACE, PUSH = range(3, 7)
+STEP = 1e-4  # of the pocket's play: how far a difference of slopes goes
 
 
 class Wall(NamedTuple):
@@ -94,8 +97,9 @@ def pocket_wall_tangent(i, ball, modes, data, laws, sl, pw, wrench, sums):
     zero(pw.C)
     if sl.N[0] <= 0.0:
         return True
-    wall = _wall_there(i, ball, data, pw)
     v, spin = turned(pw.G, ball.velocity), turned(pw.G, ball.spin)
+    _bends(i, ball, data, modes.q, pw)
+    wall = _wall_there(i, ball, data, pw)
     _depth(wall, modes.q, pw)
     slide = _sliding(ball.radius, wall, v, spin, modes.qd, sl, pw)
     _law(wall, v, modes.qd, sl, data.normal[i], pw)
@@ -129,6 +133,32 @@ def _wall_there(i, ball, data, pw):
         _scaled(keep, turning((0.0, 0.0, 1.0), n, apart, touch)),
     )
     return Wall(n, bends, keep, around, polewards, yields, soft, still)
+
+
+@part
+def _bends(i, ball, data, q, pw):
+    """How the slopes of depth and compliance over the ball's place change with it, into ``pw.bend``
+    and ``pw.softer``."""
+    step = STEP * max(abs(data.radius[i] - ball.radius), 1e-3 * ball.radius)
+    for c in range(3):
+        aside = times(step, row(pw.G, c))
+        deep, soft = _slopes(i, _at(ball, plus(ball.centre, aside)), data, q, pw)
+        less, softer = _slopes(i, _at(ball, minus(ball.centre, aside)), data, q, pw)
+        _put_column(pw.bend, c, times(0.5 / step, minus(deep, less)))
+        _put_column(pw.softer, c, times(0.5 / step, minus(soft, softer)))
+
+
+@part
+def _at(ball, centre):
+    return BallInPocket(ball.radius, centre, ball.velocity, ball.spin, ball.onset)
+
+
+@part
+def _slopes(i, ball, data, q, pw):
+    """Slopes of depth and compliance over the ball's place."""
+    wall = _wall_there(i, ball, data, pw)
+    _depth(wall, q, pw)
+    return xyz(pw.gen[DEPTH]), wall.yields
 
 
 @part
@@ -200,20 +230,16 @@ def _bent(wall, a):
 
 @part
 def _depth(wall, q, pw):
-    """The depth's slopes into ``pw.gen[DEPTH]``, and how those over the ball's place change into
-    ``pw.bend``."""
+    """The depth's slopes into ``pw.gen[DEPTH]``, and into ``pw.bend`` how those over the ball's
+    place change with the modes."""
     gen, bend, shape, n = pw.gen[DEPTH], pw.bend, pw.shape, wall.n
     zero(gen)
-    zero(bend)
     u = plus(_moved(shape[HERE], q), wall.still[HERE])
     du = plus(_moved(shape[AROUND], q), wall.still[AROUND])
     faded = plus(_moved(shape[POLEWARDS], q), wall.still[POLEWARDS])
     push = minus(_scaled(wall.keep, n), _bent(wall, u))
     push = combine(push, -dot(du, n), wall.around)
     put(gen, combine(push, -dot(faded, n), wall.polewards))
-    _put_column(bend, 0, times(wall.keep[0], wall.bends[0]))
-    _put_column(bend, 1, times(wall.keep[1], wall.bends[1]))
-    _put_column(bend, 2, times(wall.keep[2], wall.bends[2]))
     for m in range(q.shape[0]):
         gen[RIGID + m] = -dot(column(shape[HERE], m), n)
         changes = _bent(wall, column(shape[HERE], m))
@@ -270,7 +296,7 @@ def _law(wall, v, qd, sl, p, pw):
         if k >= RIGID:
             by_place[k] += sl.Nv[0] * share * dot(column(bend, k), v)
     for c in range(3):
-        rate = dot(xyz(bend[c]), v)
+        rate = dot(xyz(bend[c]), v) - force * dot(xyz(pw.softer[c]), v)
         for m in range(qd.shape[0]):
             rate += bend[c, RIGID + m] * qd[m]
         if wall.soft > 0.0:
@@ -298,6 +324,8 @@ def _products(slide, sl, pw):
     for c in range(3):
         for j in range(n):
             pw.K[c, j] += slide.N * pw.bend[c, j]
+        for j in range(3):
+            pw.K[c, j] -= 0.5 * slide.N * slide.N * pw.softer[c, j]
         for j in range(RIGID, n):
             pw.K[j, c] += slide.N * pw.bend[c, j]
 

@@ -19,7 +19,6 @@ class BodyFile:
         doc="file of a body that was reduced elsewhere (.npz, .op4, .pch, .mtx), in place of what "
         "flexcage would compute",
         file=True,
-        legacy="",
     )
     body_nodes: str = option(
         "",
@@ -27,12 +26,10 @@ class BodyFile:
         "itself does not",
         file=True,
         when={"body": GIVEN},
-        legacy="",
     )
     body_units: str = option(
         SYSTEM_NAMES[0],
         doc="system of units of both files",
         choices=SYSTEM_NAMES,
         when={"body": GIVEN},
-        legacy=SYSTEM_NAMES[0],
     )

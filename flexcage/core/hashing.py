@@ -19,9 +19,7 @@ _DIGITS = 12  # 0.2 * 1e-3 and 200 * 1e-6 differ in the 16th digit and mean the 
 def canonical(obj: Any) -> Any:
     """Plain JSON values of nested dataclasses: numbers rounded to 12 significant digits.
 
-    Integers and floats of the same value are the same; arrays enter by shape, type and bytes. An
-    option that was added later (``legacy`` of ``core.spec.option``) enters where it asks for
-    something else than what was done before, so that results found by hash stay found.
+    Integers and floats of the same value are the same; arrays enter by shape, type and bytes.
     """
     if obj is None or isinstance(obj, (bool, str)):
         return obj
@@ -32,7 +30,7 @@ def canonical(obj: Any) -> Any:
     if isinstance(obj, np.bool_):
         return bool(obj)
     if dataclasses.is_dataclass(obj) and not isinstance(obj, type):
-        values = {f.name: getattr(obj, f.name) for f in dataclasses.fields(obj) if counts(obj, f)}
+        values = {f.name: getattr(obj, f.name) for f in dataclasses.fields(obj)}
         return {"": type(obj).__name__, **{name: canonical(v) for name, v in values.items()}}
     if isinstance(obj, Mapping):
         return {str(k): canonical(v) for k, v in obj.items()}
@@ -51,12 +49,6 @@ def canonical(obj: Any) -> Any:
     if isinstance(obj, PurePath):
         return str(obj)
     raise TypeError(f"no canonical form for {type(obj).__name__}")
-
-
-def counts(obj: Any, field: dataclasses.Field[Any]) -> bool:
-    """Does a field enter: has it no ``legacy`` value, or another one?"""
-    legacy = field.metadata.get("legacy", dataclasses.MISSING)
-    return legacy is dataclasses.MISSING or getattr(obj, field.name) != legacy
 
 
 def _number(x: Any) -> Any:

@@ -46,14 +46,13 @@ def quantity(
     assumption: str = "",
     of: Collection[str] = (),
     when: When = (),
-    legacy: Any = MISSING,
 ) -> Any:
     """A physical value held in SI; ``unit`` is the unit a person would write ("mm", "rpm").
 
     ``minimum`` and ``maximum`` are inclusive and ``above`` exclusive bounds, in SI.
     ``assumption`` says why a default that no source gives was chosen. ``of`` names those of the
     spec's laws (``law``) that read the value; without it all do. ``when`` says which other values
-    of the spec make anything read this one (``When``). ``legacy`` as for ``option``.
+    of the spec make anything read this one (``When``).
     """
     meta = {
         "unit": unit,
@@ -64,7 +63,6 @@ def quantity(
         "assumption": assumption,
         "of": of,
         "when": when,
-        "legacy": legacy,
     }
     return dataclasses.field(default=default, metadata=meta)
 
@@ -79,7 +77,6 @@ def option(
     assumption: str = "",
     of: Collection[str] = (),
     when: When = (),
-    legacy: Any = MISSING,
     elsewhere: Mapping[str, str] = MappingProxyType({}),
     file: bool = False,
 ) -> Any:
@@ -87,11 +84,9 @@ def option(
 
     Choices that are a mapping may grow while the program runs (``core.registry``). It gives the
     spec that a name brings along with values of its own, a subclass of the one at hand, or None.
-    ``assumption``, ``of`` and ``when`` as for ``quantity``. ``legacy`` is for an option that is
-    added later: what was done before, which leaves the hashes of specs as they were
-    (``core.hashing``). ``elsewhere`` maps patterns of names that are asked for here, and are not
-    known, to what flexcage has instead. ``file``: the value is the path of a file, relative to the
-    case's own, whose bytes count.
+    ``assumption``, ``of`` and ``when`` as for ``quantity``. ``elsewhere`` maps patterns of names
+    that are asked for here, and are not known, to what flexcage has instead. ``file``: the value is
+    the path of a file, relative to the case's own, whose bytes count.
     """
     meta = {
         "doc": doc,
@@ -101,7 +96,6 @@ def option(
         "assumption": assumption,
         "of": of,
         "when": when,
-        "legacy": legacy,
         "elsewhere": elsewhere,
         "file": file,
     }

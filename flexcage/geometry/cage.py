@@ -45,7 +45,7 @@ class Cage:
     outside_diameter: float = quantity("mm", doc="outside diameter", above=0.0)
     width: float = quantity("mm", doc="axial width", above=0.0)
     temperature: float | None = quantity(
-        "degC", None, legacy=None, above=0.0,
+        "degC", None, above=0.0,
         doc="temperature of the cage, from which modulus and damping follow; room temperature "
         "by default; dimensions, density and strength stay",
     )  # fmt: skip

@@ -63,9 +63,7 @@ class Line(NamedTuple):
 
 def defect_type(name: str) -> Any:
     """The field ``type`` of a kind of defect."""
-    return option(
-        name, doc="kind of defect", choices=DEFECTS, legacy=name, elsewhere=_NO_DEFECTS
-    )  # ``legacy``: the hash has the class
+    return option(name, doc="kind of defect", choices=DEFECTS, elsewhere=_NO_DEFECTS)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -22,7 +22,6 @@ class Material:
     source: str = option("", doc="where the values come from")
     loss_factor: float = option(
         0.0, doc="loss factor (tan delta); metals have less than 0.001", minimum=0.0, maximum=1.0,
-        legacy=0.0,
     )  # fmt: skip
 
     @property

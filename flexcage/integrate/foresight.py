@@ -52,6 +52,8 @@ class Foresight:
     def look(self, steps: int, time: float) -> None:
         """After any number of steps, in all, up to ``time`` [s]."""
         before, since = self._window
+        if time < since:  # a block is done again
+            self._window = before, since = steps, time
         if steps - before >= EVERY:
             self._window = steps, time
             self.after(steps, time, (time - since) / (steps - before))

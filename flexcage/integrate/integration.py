@@ -5,20 +5,22 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable
 from time import perf_counter
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from flexcage.core.errors import FlexcageError, InputError, RunFailed, mistake_in
+from flexcage.core.errors import InputError, RunFailed
 from flexcage.core.progress import Silent
+from flexcage.integrate.balance import AGAIN, NEITHER, TIGHTER, Balance, Weighed
 from flexcage.integrate.divergence import first_undefined, hardest, runaway
 from flexcage.integrate.foresight import EVERY, Foresight
 from flexcage.integrate.recorded import recorded, recorded_names
 from flexcage.integrate.recording import Recording
+from flexcage.integrate.registered import computed_in, registered
 from flexcage.integrate.rings import carried
 from flexcage.results.lowpass import butterworth, low_passed
 from flexcage.results.options import OutputOptions
-from flexcage.results.registry import COMPUTED, VARIABLES
+from flexcage.results.registry import COMPUTED
 from flexcage.results.store import LOADS, MemoryRunStore
 from flexcage.solve.contract import (
     COUNTS,
@@ -64,6 +66,25 @@ LOG_ROWS = EVERY  # steps that are logged at a time, at most
 _FIRST_ROWS, _BETWEEN = 16, 1.0  # at first; more of them where they take less than so many s
 
 
+class _Attempt(NamedTuple):
+    """A block as it was integrated: samples of the fine grid, what is stored of the main one."""
+
+    times: np.ndarray  # (n,) [s]
+    ys: np.ndarray  # (n, size)
+    yds: np.ndarray  # (n, size)
+    arrays: dict[str, np.ndarray]  # by name, of ``done`` samples of the main grid
+    steps: np.ndarray  # rows of the log
+    done: int
+    outcome: int
+    deep: Any  # (sample, what, why) of a divergence, or nothing
+    weighed: Weighed
+
+    @property
+    def whole(self) -> bool:
+        """Whether the block came to its end."""
+        return self.outcome == DONE and not self.deep
+
+
 class Integration:
     """The integration of one run: goes on from a checkpoint if the store has one."""
 
@@ -84,8 +105,9 @@ class Integration:
         lacking = [name for name in own if name not in held]
         if lacking:
             raise _of_another(f"it holds no '{lacking[0]}'", lacking[0])
-        self._computed = _computed(store)
-        self.work_weight = work_weights(bearing.data.model, solver.tolerance)
+        self._computed = computed_in(store)
+        self._balance = Balance(store)
+        self.tightened, self.repeated = 1.0, 0  # of the tolerance; blocks done again
         self.bound = np.inf  # [s] least stability bound of explicit steps so far
         self._take("bdf" if solver.method == "auto" else solver.method, 0.0, start.y, start.yd)
         self._filter = np.zeros((2, 2, 2))
@@ -104,12 +126,11 @@ class Integration:
         before = getattr(self, "state", None)
         self.integrator = INTEGRATORS[method]
         self.options = self.integrator.options(self.solver)
-        weight = self.bearing.error_weights(
-            self.solver.tolerance, implicit=not self.integrator.bounded
-        )
+        tolerance = self.tightened * self.solver.tolerance
+        weight = self.bearing.error_weights(tolerance, implicit=not self.integrator.bounded)
         self.state = self.integrator.new_state(
-            time, y, yd, weight=weight, h0=step, quad_weight=self.work_weight,
-            modes=self.bearing.modes,
+            time, y, yd, weight=weight, h0=step,
+            quad_weight=work_weights(self.bearing.data.model, tolerance), modes=self.bearing.modes,
         )  # fmt: skip
         if before is not None:
             self.state.quad[:] = before.quad
@@ -153,7 +174,8 @@ class Integration:
     @property
     def effort(self) -> Effort:
         """What the integration took so far."""
-        return Effort({k: int(self.state.count[i]) for k, i in COUNTS.items()}, self.bound)
+        counts = {k: int(self.state.count[i]) for k, i in COUNTS.items()}
+        return Effort({**counts, "repeated_blocks": self.repeated}, self.bound)
 
     @property
     def time(self) -> float:
@@ -174,6 +196,35 @@ class Integration:
                 self._foresight.look(self.effort.counts["steps"], self.time)
 
     def _block(self, index: int) -> None:
+        """Integrate and store a block; again with a tighter tolerance where energy leaks."""
+        begun, given = self._checkpoint(), self.tightened
+        found = self._attempt(index)
+        while found.weighed.over and self.tightened > TIGHTER**AGAIN * 1.5:
+            found = self._again(index, begun, self.tightened * TIGHTER)
+            if not found.whole:  # steps became too short, say: as it was
+                found = self._again(index, begun, given)
+                break
+            given = self.tightened
+        self._keep(index, found)
+        if found.deep:
+            first = found.times[self.output.vibration_ratio * (found.done + 1) - 1]
+            raise RunFailed(
+                f"{found.deep[1]} at t = {first * 1e3:.4f} ms; {found.deep[2]}; what was computed "
+                "before is kept"
+            )
+        if not found.whole:
+            raise RunFailed(self._stopped(found.outcome))
+
+    def _again(self, index: int, begun: dict[str, np.ndarray], tightened: float) -> _Attempt:
+        """A block from its start with another tolerance; what this costs is counted."""
+        spent, repeated = self.state.count.copy(), self.repeated
+        self._restore({**begun, "tightened": np.array(tightened)})
+        self.state.count[: len(COUNTS)] = spent[: len(COUNTS)]
+        self.repeated = repeated + 1
+        log.debug("block %d again with %g of the tolerance", index, tightened)
+        return self._attempt(index)
+
+    def _attempt(self, index: int) -> _Attempt:
         ratio, layout = self.output.vibration_ratio, self.bearing.layout
         low, high = self.store.layout.span(index, "time_hf")
         times = np.arange(low + 1, high + 1) / self.output.vibration_rate
@@ -186,6 +237,24 @@ class Integration:
         self.bearing.data.events.pocket_force_peak[...] = 0.0  # as in a run that is resumed here
         self.bearing.data.between.fill[:] = 0
         self.bearing.data.between.clock[:] = -np.inf, self.time + 1.0 / self.output.rate
+        outcome, sample, steps = self._advance(times, ys, yds, quads)
+        done = sample // ratio
+        deep = runaway(self.bearing, self.recording, ys[ratio - 1 : sample : ratio])
+        if deep:
+            done = deep[0]
+        main = slice(ratio - 1, done * ratio, ratio)
+        arrays = {}
+        if done:  # a solver that stops before the first sample leaves nothing to write
+            arrays = recorded(self.bearing, self.recording, ys[main], yds[main])
+            arrays["work"] = quads[main]
+        whole = outcome == DONE and not deep
+        weighed = self._balance.weigh(arrays["energy"], arrays["work"]) if whole else NEITHER
+        return _Attempt(times, ys, yds, arrays, steps, done, outcome, deep, weighed)
+
+    def _advance(
+        self, times: np.ndarray, ys: np.ndarray, yds: np.ndarray, quads: np.ndarray
+    ) -> tuple[int, int, np.ndarray]:
+        """Fill a block's samples; (outcome, samples filled, rows of the log)."""
         logs, sample, outcome = [], 0, DONE
         log, used = np.zeros((self._rows, len(LOG_COLUMNS))), 0
         for stop in [*self._corners(times[-1]), times[-1]]:
@@ -207,34 +276,28 @@ class Integration:
                 break
             if stop < times[-1]:
                 self._turn()
-        logs.append(log[:used])
-        done = sample // ratio
-        deep = runaway(self.bearing, self.recording, ys[ratio - 1 : sample : ratio])
-        if deep:
-            done = deep[0]
-        whole = outcome == DONE and not deep
-        if done:  # a solver that stops before the first sample leaves nothing to write
-            main = slice(ratio - 1, done * ratio, ratio)
-            arrays = recorded(self.bearing, self.recording, ys[main], yds[main])
-            arrays["work"] = quads[main]
-            arrays |= self._registered(arrays)
-            fine = self._fine(yds[: done * ratio], done * ratio)
-            steps = dict(zip(LOG_COLUMNS, np.concatenate(logs).T, strict=True))
-            checkpoint = self._checkpoint() if whole else None
+        return outcome, sample, np.concatenate([*logs, log[:used]])
+
+    def _keep(self, index: int, found: _Attempt) -> None:
+        """Store what an attempt found, and the last state before a divergence."""
+        last = self.output.vibration_ratio * found.done - 1
+        if found.done:
+            fine = self._fine(found.yds[: last + 1], last + 1)
+            if found.weighed.spare and self.tightened < 1.0:
+                self._restore(self._checkpoint(min(1.0, self.tightened / TIGHTER)))
+            self._balance.keep(found.done)
+            steps = dict(zip(LOG_COLUMNS, found.steps.T, strict=True))
             self.store.write_block(
-                index, arrays, fine, checkpoint,
+                index,
+                found.arrays | registered(self._computed, found.arrays, self.bearing, self.store),
+                fine,
+                self._checkpoint() if found.whole else None,
                 {"steps": steps, "events": self._events(), **self._loads()},
-            )  # fmt: skip
-        if deep:
-            if done:
-                last = ratio * done - 1
-                self.store.keep_last({"time": times[last], "y": ys[last], "yd": yds[last]})
-            raise RunFailed(
-                f"{deep[1]} at t = {times[ratio * (done + 1) - 1] * 1e3:.4f} ms; {deep[2]}; what "
-                "was computed before is kept"
             )
-        if not whole:
-            raise RunFailed(self._stopped(outcome))
+        if found.deep and found.done:
+            self.store.keep_last(
+                {"time": found.times[last], "y": found.ys[last], "yd": found.yds[last]}
+            )
 
     def _stopped(self, outcome: int) -> str:
         """Keep the last accepted state; the sentence that says when and where this was."""
@@ -246,31 +309,6 @@ class Integration:
             f"the solver stopped at t = {self.time * 1e3:.4f} ms: {OUTCOMES[outcome]}; the "
             f"hardest contact then was {place}; what was computed is kept"
         )
-
-    def _registered(self, arrays: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
-        """Variables that were registered from outside, from those of the program."""
-        samples = len(arrays["inner_angle"])
-        added = {}
-        for name, compute in self._computed.items():
-            variable = next(v for v in self.store.layout.variables if v.name == name)
-            wanted = (samples, *self.store.layout.shape(variable)[1:])
-            try:
-                value = np.asarray(compute(dict(arrays), self.bearing))
-            except FlexcageError:
-                raise
-            except Exception as exc:
-                raise RunFailed(
-                    f"the registered variable '{name}' could not be computed: "
-                    f"{mistake_in(compute, exc)}"
-                ) from exc
-            if value.shape != wanted:
-                raise InputError(
-                    f"Result variable '{name}' was computed with shape {value.shape}, but has "
-                    f"dimensions {variable.dims} and needs {wanted}.",
-                    where=name,
-                )
-            added[name] = value
-        return added
 
     def _fine(self, yd: np.ndarray, n: int) -> dict[str, np.ndarray]:
         """Outer ring's acceleration; of a fixed ring, what its contact forces would give it."""
@@ -318,11 +356,22 @@ class Integration:
         kept = {f"events_{k}": getattr(events, k) for k in _REMEMBERED}
         return {**state, **memory, **kept, "filter": self._filter}
 
-    def _checkpoint(self) -> dict[str, np.ndarray]:
+    def _checkpoint(self, tightened: float | None = None) -> dict[str, np.ndarray]:
         kept = {k: v.copy() for k, v in self._parts().items()}
-        return {**kept, "integrator": np.array(self.integrator.name), "bound": np.array(self.bound)}
+        return {
+            **kept,
+            "integrator": np.array(self.integrator.name),
+            "bound": np.array(self.bound),
+            "tightened": np.array(tightened or self.tightened),
+            "repeated": np.array(self.repeated),
+        }
 
     def _restore(self, saved: dict[str, np.ndarray]) -> None:
+        lacking = {"integrator", "bound", "tightened", "repeated"} - set(saved)
+        if lacking:
+            name = min(lacking)
+            raise _of_another(f"its checkpoint holds no '{name}'", name)
+        self.tightened, self.repeated = float(saved["tightened"]), int(saved["repeated"])
         y, yd = self.integrator.last(self.state)
         self._take(str(saved["integrator"]), 0.0, y, yd)
         self.bound = float(saved["bound"])
@@ -353,16 +402,3 @@ def _of_another(how: str, name: str) -> InputError:
 
 def _behind(time: float) -> float:
     return BEHIND * (1.0 + 0.1 * time)
-
-
-def _computed(store: MemoryRunStore) -> dict[str, Callable[..., np.ndarray]]:
-    """Functions of the store's variables that the program does not record itself."""
-    held = [v.name for v in store.layout.variables]
-    unknown = [name for name in held if name not in VARIABLES]
-    if unknown:
-        raise InputError(
-            f"The run holds the result variable '{unknown[0]}', which nothing computes here; "
-            "register it again, from the module that did so when the run began.",
-            where=unknown[0],
-        )
-    return {name: COMPUTED[name] for name in held if name in COMPUTED}

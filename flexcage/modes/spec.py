@@ -53,7 +53,6 @@ class ModesSpec(BodyFile):
         "the middle of a face alone, 'quadratic' has one more and leaves 0.5 to 2 %",
         choices=("linear", "quadratic"),
         when=(_BODY, {"kind": OtherThan(("free_free",))}),
-        legacy="linear",
     )
     damping: float | None = option(
         None,
@@ -71,7 +70,6 @@ class ModesSpec(BodyFile):
         "otherwise; the last holds for all further modes",
         minimum=0.0,
         maximum=1.0,
-        legacy=(),
     )
     bands: tuple[DampingBand, ...] = option((), doc="damping ratios by frequency band")
     land: bool = option(

@@ -20,9 +20,10 @@ thirtieth of what the drive does within half a millisecond, so that the floor de
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf, isnan, nan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -35,10 +36,11 @@ if TYPE_CHECKING:
 CAGE_LOSSES = (
     "pocket_damping", "pocket_friction", "modal_damping", "land_damping", "land_friction", "film",
 )  # fmt: skip
+DRIVES = ("drive", "constraints")  # what puts work in
 OF_DRIVE, OF_CAGE = 1e-3, 0.05  # largest imbalance over the drive's work and over the cage's losses
 OF_ELASTIC = 1e-3  # of the elastic energy held: what a share must rise above to be one
 BEGUN = 0.01  # of the cage's losses in the run: from there on the imbalance may be the cage's
-_ROUNDING = 1e-12  # of the energy moved: less is no work
+ROUNDING = 1e-12  # of the energy moved: less is no work
 PASSED, UNJUDGED, EXCEEDED = "passed", "not judged", "EXCEEDED"
 
 
@@ -90,40 +92,74 @@ def imbalance(ds: xarray.Dataset) -> xarray.DataArray:
     return out.rename("imbalance")
 
 
-def energy_audit(ds: xarray.Dataset) -> EnergyAudit:
-    """Audit a run from its ``energy`` and ``work`` (work done on the bearing, losses negative)."""
-    gap = imbalance(ds).values
-    stored, work = ds["energy"], ds["work"]
-    gain = float(np.ptp(stored.sum("energy_kind").values))
-    through = float(np.ptp(work.transpose("time", "channel").values, axis=0).sum())
-    moved = max(gain, through)
-    worst = float(np.abs(gap).max())
-    channels = _change(work.transpose("time", "channel"), "channel")
-    drive = abs(channels.get("drive", 0.0)) + abs(channels.get("constraints", 0.0))
-    lost = -sum(channels.get(name, 0.0) for name in CAGE_LOSSES)
-    from_cage = _since(gap, work, lost)
-    drive, lost = (work if abs(work) > _ROUNDING * moved else 0.0 for work in (drive, lost))
-    held = stored.sel(energy_kind=stored["energy_kind"] != "kinetic").sum("energy_kind")
-    elastic = float(held.max())
-    floor = OF_ELASTIC * elastic
+class Ledger(NamedTuple):
+    """What the audit weighs, at every sample [J]; all that counts are differences over time."""
+
+    gap: np.ndarray  # (n,) stored energy less all work done
+    drive: np.ndarray  # (n, 2) work of the drive, of constraints
+    spent: np.ndarray  # (n,) work of the cage's losses, negative
+    elastic: np.ndarray  # (n,) energy held other than kinetic
+
+
+def ledger(
+    stored: np.ndarray, work: np.ndarray, kinds: Sequence[str], channels: Sequence[str]
+) -> Ledger:
+    """The ledger of energies (n, kinds) and works (n, channels) [J]."""
+    named = list(channels)
+    put = [work[:, named.index(k)] if k in named else 0.0 * work[:, 0] for k in DRIVES]
+    lost = [i for i, name in enumerate(named) if name in CAGE_LOSSES]
+    held = [i for i, kind in enumerate(kinds) if kind != "kinetic"]
+    return Ledger(
+        stored.sum(axis=1) - work.sum(axis=1),
+        np.stack(put, axis=1),
+        work[:, lost].sum(axis=1),
+        stored[:, held].sum(axis=1),
+    )
+
+
+def shares(book: Ledger, least: float) -> tuple[float, float]:
+    """Worst imbalance since the first sample over the drive's work, and over the cage's losses; as
+    in :class:`EnergyAudit`. Work of ``least`` [J] or less is none."""
+    gap = book.gap - book.gap[0]
+    worst, floor = float(np.abs(gap).max()), OF_ELASTIC * float(book.elastic.max())
+    drive = float(np.abs(book.drive[-1] - book.drive[0]).sum())
+    lost = float(book.spent[0] - book.spent[-1])
+    from_cage = _since(gap, book.spent, lost)
+    drive, lost = (work if abs(work) > least else 0.0 for work in (drive, lost))
     untouched = OF_DRIVE * drive if 0.0 < lost < OF_DRIVE * drive else 0.0
-    return EnergyAudit(
-        worst,
-        float(gap[-1]),
-        worst / moved if moved else 0.0,
-        moved,
-        _change(stored.transpose("time", "energy_kind"), "energy_kind"),
-        channels,
-        elastic,
+    return (
         _share(worst, drive, OF_DRIVE, floor) if drive or lost or worst <= floor else inf,
         _share(from_cage, lost, OF_CAGE, max(floor, untouched)),
     )
 
 
-def _since(gap: np.ndarray, work: xarray.DataArray, lost: float) -> float:
+def energy_audit(ds: xarray.Dataset) -> EnergyAudit:
+    """Audit a run from its ``energy`` and ``work`` (work done on the bearing, losses negative)."""
+    gap = imbalance(ds).values
+    stored = ds["energy"].transpose("time", "energy_kind")
+    work = ds["work"].transpose("time", "channel")
+    gain = float(np.ptp(stored.sum("energy_kind").values))
+    moved = max(gain, float(np.ptp(work.values, axis=0).sum()))
+    kinds, channels = (
+        [str(k) for k in values[dim].values]
+        for values, dim in ((stored, "energy_kind"), (work, "channel"))
+    )
+    book = ledger(stored.values, work.values, kinds, channels)
+    worst = float(np.abs(gap).max())
+    return EnergyAudit(
+        worst,
+        float(gap[-1]),
+        worst / moved if moved else 0.0,
+        moved,
+        _change(stored, "energy_kind"),
+        _change(work, "channel"),
+        float(book.elastic.max()),
+        *shares(book, ROUNDING * moved),
+    )
+
+
+def _since(gap: np.ndarray, spent: np.ndarray, lost: float) -> float:
     """Largest imbalance [J] that arises once the cage has dissipated ``BEGUN`` of what it does."""
-    names = work["channel"].isin(CAGE_LOSSES)
-    spent = work.sel(channel=names).sum("channel").values
     before = int(np.argmax(spent[0] - spent > BEGUN * lost)) - 1 if lost > 0.0 else 0
     gap = gap[max(before, 0) :]
     return float(np.abs(gap - gap[0]).max())

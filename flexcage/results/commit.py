@@ -17,13 +17,10 @@ from flexcage import _version
 from flexcage.core.errors import InputError
 from flexcage.core.reading import read_json, table_of
 from flexcage.core.writing import replace
-from flexcage.results.renamed import OLD_FORMAT
 
 FORMAT = 6  # see ``store``
 SIDE = "_run"  # folder beside the arrays: commit, checkpoint, steps, events
 COMMIT = "commit.json"
-CHECKSUMS = 6  # the first format that has them
-_READ = (OLD_FORMAT, 5, FORMAT)
 _CHECKSUM = "checksum"
 _CHECKPOINT = re.compile(r"(checkpoint-\d{6,}\.npz)?")
 
@@ -67,10 +64,10 @@ def read_commit(path: Path) -> dict[str, Any]:
     except (OSError, ValueError) as error:
         raise InputError(f"The commit file of {path} cannot be read: {error}.") from error
     found = commit.get("format") if isinstance(commit, dict) else None
-    if found not in _READ:
+    if found != FORMAT:
         raise InputError(
             f"The run in {path} is stored in format {found}, and this flexcage "
-            f"({_version.__version__}) reads formats {OLD_FORMAT} to {FORMAT}: "
+            f"({_version.__version__}) reads format {FORMAT}: "
             "open it with the flexcage that wrote it, or run the case again.",
             where="path",
             value=str(path),
@@ -87,9 +84,8 @@ def _checked(path: Path, commit: dict[str, Any]) -> dict[str, Any]:
         known = min(counts) >= 0 and _CHECKPOINT.fullmatch(commit["checkpoint"])
         for seam in commit.get("continued", ()):
             table_of(seam, sample=int, version=str, physics=str)
-        if commit["format"] >= CHECKSUMS:
-            table_of(commit, metadata=str, files=dict)
-            known = known and own == _own_checksum(commit)
+        table_of(commit, metadata=str, files=dict)
+        known = known and own == _own_checksum(commit)
     except ValueError:
         known = False
     if not known:
@@ -106,16 +102,12 @@ def vouched(
 ) -> dict[str, Any]:
     """The commit as it vouches for a file's new content too. ``and_before``: it goes on to vouch
     for the content before, which is the one that is there after a kill between the two."""
-    if commit["format"] < CHECKSUMS:
-        return commit
     before = commit["files"].get(name, [])[-1:] if and_before else []
     return {**commit, "files": {**commit["files"], name: [*before, checksum(content)]}}
 
 
 def vouches(commit: dict[str, Any], name: str, content: bytes) -> bool:
-    """Whether a file holds what was committed; true in a format that knows no checksums."""
-    if commit["format"] < CHECKSUMS:
-        return True
+    """Whether a file holds what was committed."""
     return checksum(content) in commit["files"].get(name, ())
 
 

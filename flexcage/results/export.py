@@ -20,7 +20,6 @@ from flexcage.core.errors import EnvironmentLacks, InputError, install, unwritab
 from flexcage.core.writing import written
 from flexcage.results.layout import plain_attr
 from flexcage.results.registry import TIME, VARIABLES, families_with, whose
-from flexcage.results.renamed import NAMES
 
 if TYPE_CHECKING:
     import pandas
@@ -177,15 +176,13 @@ def columns(ds: xarray.Dataset, variables: Sequence[str] | None = None) -> Colum
 
 
 def check_there(name: str, known: Iterable[Any]) -> None:
-    """InputError for a variable that is not known, with its new or the nearest name, or whose
+    """InputError for a variable that is not known, with the nearest name, or whose
     bearings have it."""
     known = [str(k) for k in known]
     if name in known:
         return
     hint = did_you_mean(name, known, "it has")
-    if name in NAMES:
-        hint = f"it is called {NAMES[name]!r} now"
-    elif name in VARIABLES:
+    if name in VARIABLES:
         has = whose(families_with(name))
         hint = f"it is recorded of {has} alone" if has else "this run did not record it"
         hint += f" ({VARIABLES[name].long_name})"

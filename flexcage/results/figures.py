@@ -105,7 +105,7 @@ def _statistics_rows(
             f"± is a 95 % interval{few}",
             Element=metrics.element(ds).capitalize(),
         ),
-        figure("drift", (drifting or NO_DRIFT[0]) if known else None, remedy),
+        figure("drift", (drifting or NO_DRIFT) if known else None, remedy),
     )
 
 

@@ -30,8 +30,8 @@ RARE = "rare"
 BRIEF, LARGE, EFFORT = "brief", "large", "effort"
 SETTLING, CONVERGENCE = "settling", "convergence"
 
-#: What ``drift`` says where no figure does; the second in summaries of an earlier flexcage.
-NO_DRIFT = ("none", "nothing")
+#: What ``drift`` says where no figure does.
+NO_DRIFT = "none"
 
 #: Words of titles that depend on the bearing or its cage, and what stands for them in a list.
 WORDS = {"Element": "Element", "Faces": "Pocket faces", "place": "a corner or edge",
@@ -304,6 +304,8 @@ def _solver() -> Iterator[KnownFigure]:
         ("factorisations", "Factorisations", "", "of Newton's matrix", RARE),
         ("failed_error_tests", "Failed error tests", "", "steps repeated for their error", EFFORT),
         ("failed_newton", "Failed Newton iterations", "", "", EFFORT, RARE),
+        ("repeated_blocks", "Blocks done again", "",
+         "with a tenth of the tolerance, as their energy did not balance", EFFORT, RARE),
         ("stable_step", "Stability bound of explicit steps", "us",
          "least over the run, by the spectral radius"),
     )

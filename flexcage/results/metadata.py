@@ -21,7 +21,6 @@ from flexcage.results.commit import FORMAT, SIDE, damaged
 from flexcage.results.door import NODE, TYPES, array_shape, group_attributes, read_array
 from flexcage.results.layout import Layout, coords_from_json, coords_to_json
 from flexcage.results.registry import LABELS, TIME, TIME_HF, Variable
-from flexcage.results.renamed import OLD_FORMAT, stored_then
 from flexcage.results.shards import BLOSC, SLOTS
 
 LARGEST_BLOCK = 2**31  # bytes of a variable's block: Blosc holds no more
@@ -89,16 +88,13 @@ def slots(layout: Layout) -> int:
     return min(SLOTS, max(layout.n_blocks, 1))
 
 
-def read_layout(path: Path, of_format: int) -> Layout:
+def read_layout(path: Path) -> Layout:
     """The layout of a run on disk; InputError or ValueError for one that cannot be."""
     attributes = group_attributes(read_json(path / NODE))
     stored = table_of(
-        _unpacked_attr(attributes.get("layout")), variables=list, coords=dict, n_time=int,
+        json_of(attributes.get("layout", "")), variables=list, coords=dict, n_time=int,
         n_time_hf=int, block=int, block_hf=int,
     )  # fmt: skip
-    variables = stored["variables"]
-    if of_format == OLD_FORMAT:
-        variables = [stored_then(v) for v in variables]
     coords = coords_from_json(stored["coords"])
     for grid in _GRIDS:
         if (path / grid / NODE).exists():
@@ -106,21 +102,16 @@ def read_layout(path: Path, of_format: int) -> Layout:
             about = table_of(node.get("attributes", {}))
             coords[grid] = ((grid,), read_array(path / grid), about)
     layout = Layout(
-        tuple(Variable(**{**v, "dims": tuple(v["dims"])}) for v in variables),
+        tuple(Variable(**{**v, "dims": tuple(v["dims"])}) for v in stored["variables"]),
         coords,
         stored["n_time"],
         stored["n_time_hf"],
         stored["block"],
         stored["block_hf"],
-        dict(table_of(_unpacked_attr(attributes.get("run")))),
+        dict(table_of(json_of(attributes.get("run", "")))),
     )
     _check_layout(path, layout)
     return layout
-
-
-def _unpacked_attr(value: Any) -> Any:
-    """The table that an attribute holds: as JSON text, or in format 5 as it is."""
-    return json_of(value) if isinstance(value, str) else value
 
 
 def _check_layout(path: Path, layout: Layout) -> None:

@@ -35,7 +35,6 @@ class OutputOptions:
         True,
         doc="keep the mesh and the mode shapes of a flexible cage with the results (2 to 40 MB); "
         "without them the cage is made anew on loading",
-        legacy=True,
     )
 
     @property

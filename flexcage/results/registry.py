@@ -32,7 +32,6 @@ from flexcage.core.listing import Listing
 from flexcage.core.registry import check_free
 from flexcage.core.wings import FAMILIES, Parts
 from flexcage.modes.basis import FACES
-from flexcage.results.renamed import NAMES
 
 if TYPE_CHECKING:
     from flexcage.system.problem import Bearing
@@ -302,13 +301,11 @@ def variables_of(family: str) -> list[str]:
 
 
 def variable(name: str) -> Variable:
-    """The registered variable, or one sentence with its new or the nearest name."""
+    """The registered variable, or one sentence with the nearest name."""
     if name in VARIABLES:
         return VARIABLES[name]
     near = near_names(name, VARIABLES, 1)
     hint = f"; the nearest known name is {near[0]!r}" if near else ""
-    if name in NAMES:
-        hint = f"; it is called {NAMES[name]!r} now"
     raise InputError(f"There is no result variable {name!r}{hint}.", where="variable", value=name)
 
 

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     import xarray
 
 REACTIONS = ("axial_force", "moment_y", "moment_z")
+TORQUE = "power over speed; seals, grease and elastic hysteresis of rolling are not counted"
 LEAST = 1e-3  # [N, N m] reactions that never pass it are rounding
 
 
@@ -34,7 +35,7 @@ def _drive_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
     torque = figure("drive_torque", None, "the ring stands")
     if speed.any():
         mean = windows.ratio(power, speed)
-        torque = statistic("drive_torque", mean, "power over speed")
+        torque = statistic("drive_torque", mean, TORQUE)
     return statistic("drive_power", windows.mean(power)), torque
 
 

@@ -10,9 +10,7 @@ unreadable stores.)
 
 Format 6: the attribute ``run`` holds the case as it was run, its hash, and the digest of the cage
 that modal coordinates refer to (``cage_file``); ``layout`` holds all shapes and labels. Both are
-JSON text, which NetCDF can hold. Labels are arrays as well, for other programs. Format 5 has no
-such arrays, and these attributes are tables. Format 4 is format 5 with other names (``renamed``);
-it is read, not gone on with.
+JSON text, which NetCDF can hold. Labels are arrays as well, for other programs.
 """
 
 from __future__ import annotations
@@ -31,7 +29,6 @@ from flexcage.core.errors import InputError, RunFailed
 from flexcage.core.reading import check_size
 from flexcage.core.writing import replace
 from flexcage.results.commit import (
-    CHECKSUMS,
     COMMIT,
     SIDE,
     continued,
@@ -47,7 +44,6 @@ from flexcage.results.files import disk, joined, load, make_room, npz_of, save
 from flexcage.results.layout import Arrays, Layout, label_dataset, make_layout
 from flexcage.results.metadata import create_arrays, metadata_checksum, read_layout, slots
 from flexcage.results.registry import TIME, TIME_HF, Variable, rounded_loads
-from flexcage.results.renamed import OLD_FORMAT, renamed
 from flexcage.results.shards import Chunks, encoded, packed, unpacked
 
 if TYPE_CHECKING:
@@ -291,7 +287,7 @@ class RunStore(MemoryRunStore):
         path = Path(path)
         commit = read_commit(path)
         try:
-            layout = read_layout(path, commit["format"])
+            layout = read_layout(path)
         except InputError:
             raise
         except Exception as error:  # of whichever library reads a part of it
@@ -299,10 +295,6 @@ class RunStore(MemoryRunStore):
         store = cls(path, layout, commit)
         _check_whole(store)
         return store
-
-    def dataset(self) -> xarray.Dataset:
-        found = super().dataset()
-        return renamed(found) if self._commit["format"] == OLD_FORMAT else found
 
     def _store(self, index, data, commit, checkpoint, tables) -> None:
         self.check_there()
@@ -439,7 +431,7 @@ def _check_whole(store: RunStore) -> None:
         check_size(total, stored)
     except ValueError as error:
         raise damaged(path, f"has samples of which {error}") from error
-    if commit["format"] >= CHECKSUMS and commit["metadata"] != metadata_checksum(path, layout):
+    if commit["metadata"] != metadata_checksum(path, layout):
         raise damaged(
             path, f"has case, labels or sizes ({NODE} of an array, or of all) that were changed "
             "afterwards",

@@ -371,7 +371,7 @@ def _short(o: Outcome) -> Iterator[RunWarning]:
 
 def _drift(o: Outcome) -> Iterator[RunWarning]:
     drift = o.summary["drift"] if "drift" in o.summary else None
-    if drift not in (None, *NO_DRIFT):
+    if drift not in (None, NO_DRIFT):
         yield RunWarning(
             "not_settled",
             f"The two halves of the settled part differ beyond the intervals in: {drift}; raise "

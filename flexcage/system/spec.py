@@ -117,16 +117,14 @@ class Load(Wave):
         "held", doc="is the inner ring held in tilt, or free?", choices=("held", "free")
     )
     axial_stiffness: float = quantity(
-        "N/m", 0.0, doc="axial stiffness of the shaft; 0: none", minimum=0.0, legacy=0.0
+        "N/m", 0.0, doc="axial stiffness of the shaft; 0: none", minimum=0.0
     )
-    axial_damping: float = quantity(
-        "N*s/m", 0.0, doc="axial damping of the shaft", minimum=0.0, legacy=0.0
-    )
+    axial_damping: float = quantity("N*s/m", 0.0, doc="axial damping of the shaft", minimum=0.0)
     tilt_stiffness: float = quantity(
-        "N*m/rad", 0.0, doc="stiffness of the shaft in tilt; 0: none", minimum=0.0, legacy=0.0
+        "N*m/rad", 0.0, doc="stiffness of the shaft in tilt; 0: none", minimum=0.0
     )
     tilt_damping: float = quantity(
-        "N*m*s/rad", 0.0, doc="damping of the shaft in tilt", minimum=0.0, legacy=0.0
+        "N*m*s/rad", 0.0, doc="damping of the shaft in tilt", minimum=0.0
     )
     centre: str = option(
         "free", doc="does the inner ring's centre move, or is it held?", choices=("free", "held")
@@ -237,7 +235,6 @@ class Mount(BodyFile):
         doc="set of nodes of body_nodes at the ring's seat; by default all nodes of the body that "
         "have coordinates",
         when={"body": GIVEN},
-        legacy="",
     )
     seat_tie: str = option(
         "rigid",
@@ -245,7 +242,6 @@ class Mount(BodyFile):
         "they do on average (RBE3)",
         choices=("rigid", "average"),
         when={"body": GIVEN},
-        legacy="rigid",
     )
 
 

@@ -47,10 +47,12 @@ def a_groove(
 
 
 def pockets(
-    *, shape=CYLINDER, modes=5, soft=3e-8, rims=(2.0, 2.0, 2.0), slot=(0.0, 0.0), moved=0.0
+    *, shape=CYLINDER, modes=5, soft=3e-8, uneven=0.3, rims=(2.0, 2.0, 2.0), slot=(0.0, 0.0),
+    moved=0.0,
 ):  # fmt: skip
-    """One pocket 11.2 mm wide whose wall moves by smooth shapes and yields by ``soft`` [m/N];
-    ``rims`` outwards, inwards, to both sides; ``moved`` [m]: where it is without stress."""
+    """One pocket 11.2 mm wide whose wall moves by smooth shapes and yields by ``soft`` [m/N], more
+    or less by the share ``uneven``; ``rims`` outwards, inwards, to both sides; ``moved`` [m]: where
+    it is without stress."""
     angle = 2 * np.pi * np.arange(16) / 16
     phi = np.zeros((1, 1, 16, 3, modes))
     for m in range(modes):
@@ -62,7 +64,7 @@ def pockets(
         radius=np.array([5.6e-3]), height=32.5e-3, wall=np.array([30e-3, 35e-3]), shape=shape,
         rims=np.array([rims[:2]]), sides=np.array([[rims[2], rims[2]]]), offset=offset,
         inset=float(np.linalg.norm(offset, axis=2).max()), phi=phi, phi_max=np.ones(modes),
-        local=soft * (1.0 + 0.3 * np.cos(2 * angle))[None],
+        local=soft * (1.0 + uneven * np.cos(2 * angle))[None],
         normal=laws.normal_parameters(NormalLaw(law="restitution"), 5e8, POINT)[None],
         friction=laws.friction_parameters(FrictionLaw(law="step_coulomb")),
     )  # fmt: skip

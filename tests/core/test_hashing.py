@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from flexcage.core.hashing import canonical_json, content_hash
-from flexcage.core.spec import option
 
 
 @dataclass(frozen=True)
@@ -74,18 +73,3 @@ def test_order_of_a_mapping_does_not_count():
 def test_what_has_no_canonical_form_is_refused():
     with pytest.raises(TypeError, match="object"):
         content_hash(object())
-
-
-def test_an_option_added_later_counts_where_it_asks_for_something_new():
-    @dataclass(frozen=True)
-    class Named:
-        size: float = 2e-4
-
-    before = content_hash(Named())
-
-    @dataclass(frozen=True)
-    class Named:
-        size: float = 2e-4
-        shape: str = option("new", choices=("old", "new"), legacy="old")
-
-    assert content_hash(Named(shape="old")) == before != content_hash(Named())

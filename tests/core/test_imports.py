@@ -138,14 +138,6 @@ def test_all_that_registers_is_in_register():
     assert not there
 
 
-def test_an_old_name_works_and_names_its_new_place():
-    with pytest.warns(FutureWarning, match=r"^flexcage\.Drive is now flexcage\.spec\.Drive; "):
-        assert flexcage.Drive is spec.Drive
-    with pytest.warns(FutureWarning, match=r"^flexcage\.Grid is now flexcage\.study\.Grid; "):
-        from flexcage import Grid  # noqa: F401
-    assert "Drive" not in vars(flexcage)  # the next use warns as well
-
-
 ROOT, MINE = Path(__file__).parents[2], Path(__file__).name
 USERS = [
     file

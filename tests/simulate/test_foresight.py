@@ -60,6 +60,7 @@ def test_a_run_looks_ahead_before_its_first_step():
     free = SimpleNamespace(free=np.zeros(9))
     data = SimpleNamespace(model=SimpleNamespace(bodies=free))
     run.bearing = SimpleNamespace(stable_step=lambda t, y, yd: 1e-15, data=data)
+    run.repeated = 0
     run._foresight = Foresight(run.solver.max_steps, 0.1)
     with pytest.raises(RunFailed, match=re.escape("1.0e+14 steps")):
         run._choose()

@@ -106,7 +106,8 @@ def test_a_solver_that_runs_out_of_steps_keeps_what_it_has(tmp_path):
     for name, values in run.dataset.data_vars.items():
         assert np.isfinite(values.values).all(), name
     steps = run.store.steps()["time"]
-    assert len(steps) == 500 and run.dataset["time"].values[-1] <= steps[-1]
+    assert 400 < len(steps) <= 500  # less those of a first block that was done again
+    assert run.dataset["time"].values[-1] <= steps[-1]
     assert run.summary["inner_speed"] == pytest.approx(6000 * np.pi / 30)
 
 

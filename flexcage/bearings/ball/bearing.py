@@ -72,31 +72,25 @@ class BallBearing(Bearing):
     ball_scatter: float = quantity(
         "um", 0.0, doc="standard deviation of ball diameters", minimum=0.0
     )
-    inner_waviness: float = quantity(
-        "um", 0.0, doc="amplitude of inner race waviness", minimum=0.0, legacy=0.0
-    )
+    inner_waviness: float = quantity("um", 0.0, doc="amplitude of inner race waviness", minimum=0.0)
     inner_waviness_order: int = option(
-        2, doc="waves per turn, inner race", minimum=1, legacy=2, when={"inner_waviness": GIVEN}
+        2, doc="waves per turn, inner race", minimum=1, when={"inner_waviness": GIVEN}
     )
     inner_waviness_azimuth: float = quantity(
-        "deg", 0.0, doc="azimuth of a crest on the inner ring", legacy=0.0,
+        "deg", 0.0, doc="azimuth of a crest on the inner ring",
         when={"inner_waviness": GIVEN},
     )  # fmt: skip
-    outer_waviness: float = quantity(
-        "um", 0.0, doc="amplitude of outer race waviness", minimum=0.0, legacy=0.0
-    )
+    outer_waviness: float = quantity("um", 0.0, doc="amplitude of outer race waviness", minimum=0.0)
     outer_waviness_order: int = option(
-        2, doc="waves per turn, outer race", minimum=1, legacy=2, when={"outer_waviness": GIVEN}
+        2, doc="waves per turn, outer race", minimum=1, when={"outer_waviness": GIVEN}
     )
     outer_waviness_azimuth: float = quantity(
-        "deg", 0.0, doc="azimuth of a crest on the outer ring", legacy=0.0,
+        "deg", 0.0, doc="azimuth of a crest on the outer ring",
         when={"outer_waviness": GIVEN},
     )  # fmt: skip
-    inner_spall: Spall = option(
-        Spall(), doc="a pit of the inner race, which turns with its ring", legacy=Spall()
-    )
-    outer_spall: Spall = option(Spall(), doc="a pit of the outer race", legacy=Spall())
-    ball_spot: BallSpot = option(BallSpot(), doc="a pit or a flat on a ball", legacy=BallSpot())
+    inner_spall: Spall = option(Spall(), doc="a pit of the inner race, which turns with its ring")
+    outer_spall: Spall = option(Spall(), doc="a pit of the outer race")
+    ball_spot: BallSpot = option(BallSpot(), doc="a pit or a flat on a ball")
     material: Material = option(MATERIALS["GCr15"], doc="material of rings and balls")
 
     @property

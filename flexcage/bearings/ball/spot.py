@@ -30,9 +30,7 @@ class BallSpot:
     size: float = quantity("mm", 0.0, doc="length and width; 0: no spot", minimum=0.0)
     kind: str = option("pit", doc="what it is", choices=("pit", "flat"), when=_IS)
     ball: int = option(0, doc="ball that has it", minimum=0, when=_IS)
-    others: tuple[int, ...] = option(
-        (), doc="further balls with a spot alike", minimum=0, legacy=(), when=_IS
-    )
+    others: tuple[int, ...] = option((), doc="further balls with a spot alike", minimum=0, when=_IS)
     depth: float = quantity(
         "um", 100e-6, doc="depth of a pit", above=0.0, when={**_IS, "kind": ("pit",)}
     )

@@ -102,7 +102,7 @@ class RollerBearing(Bearing):
     roller_count: int = option(doc="number Z of rollers", minimum=3)
     radial_clearance: float = quantity("um", 0.0, doc="operating radial internal clearance Pd")
     design: str = option(
-        "N", choices=tuple(designs.DESIGNS), legacy="N",
+        "N", choices=tuple(designs.DESIGNS),
         doc="ribs: N two on the inner ring, NU on the outer; NJ as NU and one on the inner, NUP as "
         "NU and two on the inner, NF as N and one on the outer",
     )  # fmt: skip
@@ -111,14 +111,13 @@ class RollerBearing(Bearing):
     )
     rib_gap: float = quantity("mm", doc="axial distance between these two ribs", above=0.0)
     counter_rib_diameter: float | None = quantity(
-        "mm", None, doc="diameter of the other ring's ribs (NJ, NUP, NF)", above=0.0, legacy=None
+        "mm", None, doc="diameter of the other ring's ribs (NJ, NUP, NF)", above=0.0
     )
     counter_rib_gap: float | None = quantity(
         "mm", None, doc="their axial distance, for one rib twice that from the middle", above=0.0,
-        legacy=None,
     )  # fmt: skip
     thrust: str = option(
-        "+x", choices=designs.SIDES, legacy="+x",
+        "+x", choices=designs.SIDES,
         doc="axial load on the inner ring that a single counter rib carries (NJ, NF)",
     )  # fmt: skip
     profile: RollerProfile = option(RollerProfile(), doc="roller profile")
@@ -131,7 +130,7 @@ class RollerBearing(Bearing):
         2, doc="waves per turn, inner race", minimum=1, when={"inner_waviness": GIVEN}
     )
     inner_waviness_azimuth: float = quantity(
-        "deg", 0.0, doc="azimuth of a crest on the inner ring", legacy=0.0,
+        "deg", 0.0, doc="azimuth of a crest on the inner ring",
         when={"inner_waviness": GIVEN},
     )  # fmt: skip
     outer_waviness: float = quantity("um", 0.0, doc="amplitude of outer race waviness", minimum=0.0)
@@ -139,14 +138,12 @@ class RollerBearing(Bearing):
         2, doc="waves per turn, outer race", minimum=1, when={"outer_waviness": GIVEN}
     )
     outer_waviness_azimuth: float = quantity(
-        "deg", 0.0, doc="azimuth of a crest on the outer ring", legacy=0.0,
+        "deg", 0.0, doc="azimuth of a crest on the outer ring",
         when={"outer_waviness": GIVEN},
     )  # fmt: skip
     inner_spall: Spall = option(Spall(), doc="a pit of the inner race, which turns with its ring")
     outer_spall: Spall = option(Spall(), doc="a pit of the outer race")
-    roller_spot: RollerSpot = option(
-        RollerSpot(), doc="a pit or a flat on a roller", legacy=RollerSpot()
-    )
+    roller_spot: RollerSpot = option(RollerSpot(), doc="a pit or a flat on a roller")
 
     @property
     def pitch_diameter(self) -> float:

@@ -31,7 +31,7 @@ class RollerSpot:
     kind: str = option("pit", doc="what it is", choices=("pit", "flat"), when=_IS)
     roller: int = option(0, doc="roller that has it", minimum=0, when=_IS)
     others: tuple[int, ...] = option(
-        (), doc="further rollers with a spot alike", minimum=0, legacy=(), when=_IS
+        (), doc="further rollers with a spot alike", minimum=0, when=_IS
     )
     depth: float = quantity(
         "um", 100e-6, doc="depth of a pit", above=0.0, when={**_IS, "kind": ("pit",)}

@@ -31,7 +31,7 @@ class BallCage(Cage):
     cage_type: ClassVar[str] = "machined"
     pockets_vary: ClassVar[bool] = True  # may defects enlarge, elongate or displace pockets?
 
-    type: str = option("machined", doc="kind of cage", choices=BALL_CAGES, legacy="machined")
+    type: str = option("machined", doc="kind of cage", choices=BALL_CAGES)
     material: Material = option(MATERIALS["PA66"], doc="cage material (a name or its values)")
     pocket_diameter: float = quantity("mm", doc="diameter of a pocket", above=0.0)
     pocket_shape: str = option("cylindrical", doc="shape of pockets", choices=POCKET_SHAPES)

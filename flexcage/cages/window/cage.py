@@ -33,7 +33,7 @@ class WindowCage(Cage):
     cage_type: ClassVar[str] = "window"
     altered: ClassVar[str] = "Deformed"
 
-    type: str = option("window", doc="kind of cage", choices=ROLLER_CAGES, legacy="window")
+    type: str = option("window", doc="kind of cage", choices=ROLLER_CAGES)
     pocket_width: float = quantity("mm", doc="circumferential pocket width Cq", above=0.0)
     pocket_length: float = quantity("mm", doc="axial pocket length Cp", above=0.0)
     fillet_radius: float = quantity(
