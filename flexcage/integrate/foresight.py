@@ -68,11 +68,11 @@ class Foresight:
         shown = spent >= _SHOWS and done >= _SHARE * self.duration
         if self._paced or not (shown or spent >= _LATEST) or done <= 0.0:
             return
-        self._paced = True
         left = spent / done * (self.duration - time)
         if left > LONG:
+            self._paced = True
             enough = float(f"{time + done * LONG / spent:.2g}")
-            log.info("at the pace of its first %.0f s the run takes about %s more; "
+            log.info("at the pace of its %.0f s so far the run takes about %s more; "
                      "solver.duration = %s would take %s more",
                      spent, clock(left), describe(enough, "ms"), clock(LONG))  # fmt: skip
 

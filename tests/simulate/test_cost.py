@@ -140,5 +140,5 @@ def test_what_the_pace_says(said, monkeypatch):
     now[0] = 20.0
     ahead.pace(1e-3)
     (line,) = said()
-    assert line.startswith("at the pace of its first 20 s the run takes about 33 min 00 s more; ")
+    assert line.startswith("at the pace of its 20 s so far the run takes about 33 min 00 s more; ")
     assert "solver.duration = 16 ms would take 5 min 00 s more" in line

@@ -106,3 +106,19 @@ def test_how_often_it_is_looked_changes_no_bit(monkeypatch, method):
 def run_with(monkeypatch, case, rows):
     monkeypatch.setattr(integration, "_FIRST_ROWS", rows)
     return simulate(case)
+
+
+def test_a_run_that_becomes_slow_later_says_so(monkeypatch, caplog):
+    """Its first tenth in 20 s, then a thousandth of it every 20 s."""
+    now = [0.0]
+    monkeypatch.setattr(foresight.clocks, "perf_counter", lambda: now[0])
+    ahead = Foresight(50_000_000, 0.1)
+    with caplog.at_level("INFO", logger="flexcage"):
+        ahead.pace(0.0)
+        now[0] = 20.0
+        ahead.pace(0.01)
+        assert not caplog.messages  # three minutes more
+        for step in range(1, 4):
+            now[0] += 20.0
+            ahead.pace(0.01 + 1e-5 * step)
+    assert len(caplog.messages) == 1 and "6 min" in caplog.messages[0]
