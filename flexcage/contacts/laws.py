@@ -527,7 +527,7 @@ def point_rolling_resistance(lubricant: Lubricant, contact: PointContact) -> np.
 
     Houpert's force at one surface of a point contact, F = 2.86 E' R^2 kappa^0.348 G^0.022 U^0.66
     W^0.47, with U = eta u/(E' R), W = Q/(E' R^2), G = alpha E' (L. Houpert, Piezoviscous-rigid
-    rolling and sliding traction forces, J. Tribol. 107 (1985) 241): isothermal and fully flooded.
+    rolling and sliding traction forces, J. Tribol. 109 (1987) 363): isothermal and fully flooded.
     Two surfaces lose 2 F u while ball and race turn at u/R against each other, so M = 2 F R: a
     couple, which leaves both in balance. The line contact's two formulas have no counterpart: any
     choice but "none" is this one.

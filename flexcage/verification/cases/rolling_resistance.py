@@ -82,7 +82,7 @@ CASE = KnownAnswer(
     name="rolling_resistance",
     title="Rolling resistance of a lubricated roller and ball",
     source="Goksem and Hargreaves, J. Lubr. Technol. 100 (1978) 346, and for balls L. Houpert, J. "
-    "Tribol. 107 (1985) 241, F = 2.86 E' R^2 kappa^0.348 G^0.022 U^0.66 W^0.47, both fully flooded "
+    "Tribol. 109 (1987) 363, F = 2.86 E' R^2 kappa^0.348 G^0.022 U^0.66 W^0.47, both fully flooded "
     "and isothermal, numbers from an independent program; H. M. Martin, Engineering 102 (1916) "
     "119, integrated here",
     checks="The force on one surface of the most loaded inner contact of an N1013 in oil of 20 mPa "
