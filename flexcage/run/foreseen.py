@@ -24,8 +24,9 @@ from flexcage.system.bodies import speeds_over
 
 log = logging.getLogger(__name__)
 
-#: Bore [mm] times speed [rpm] near which test bearings have run on rigs, with jets of oil or oil
-#: through the inner ring: a limit that is demonstrated, not derived.
+#: Bore [mm] times speed [rpm] up to which test bearings have run on a rig, of 120 mm at 25,000 rpm
+#: (E. N. Bamberger, E. V. Zaretsky and H. Signer, NASA TN D-7870, 1975): a limit that is
+#: demonstrated, not derived.
 MOST_DN = 3e6
 _SLIP = 1.05  # longer than by the epicyclic speed, for cages slip
 _INSTANTS = 2001  # at which the drive's speed is looked at
@@ -141,8 +142,8 @@ def _fast(case: Case) -> Iterator[RunWarning]:
         yield RunWarning(
             "speed_factor",
             f"The inner ring reaches {rpm:,.0f} rpm, a speed factor (bore in mm times rpm) of "
-            f"{factor / 1e6:.3g} million. Test bearings have run near {MOST_DN / 1e6:g} million, "
-            "with jets of oil or oil through the inner ring; no known lubrication is shown to bear "
+            f"{factor / 1e6:.3g} million. Test bearings have run at {MOST_DN / 1e6:g} million "
+            "(NASA TN D-7870), with jets of oil or oil through the inner ring; no known lubrication is shown to bear "
             f"more: {within:,} rpm are within it.",
         )
 
