@@ -198,7 +198,8 @@ def _read_paths(table: Mapping[str, Any], own: set[str]) -> list[str]:
         head, _, name = path.partition(".")
         return head in own and (head != "mount" or name in _STATIC_MOUNT)
 
-    return sorted(filter(is_read, table.get("given") or (path for path, _ in flat(table))))
+    named = table.get("given")  # none: all that stands there was
+    return sorted(filter(is_read, [path for path, _ in flat(table)] if named is None else named))
 
 
 def _asked_nothing() -> dict[str, Any]:
