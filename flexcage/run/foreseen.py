@@ -143,8 +143,8 @@ def _fast(case: Case) -> Iterator[RunWarning]:
             "speed_factor",
             f"The inner ring reaches {rpm:,.0f} rpm, a speed factor (bore in mm times rpm) of "
             f"{factor / 1e6:.3g} million. Test bearings have run at {MOST_DN / 1e6:g} million "
-            "(NASA TN D-7870), with jets of oil or oil through the inner ring; no known lubrication is shown to bear "
-            f"more: {within:,} rpm are within it.",
+            "(NASA TN D-7870); no known lubrication is shown to bear more: "
+            f"{within:,} rpm are within it.",
         )
 
 
