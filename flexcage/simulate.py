@@ -11,7 +11,7 @@ from typing import Any
 from flexcage.bearings import recording_of
 from flexcage.case import Case
 from flexcage.compiling import begin_compiling, build_bearing
-from flexcage.core.binding import expect
+from flexcage.core.binding import expect, path_of
 from flexcage.core.locks import held
 from flexcage.core.output_folders import check_no_file
 from flexcage.core.timing import Stages
@@ -95,8 +95,9 @@ def load_run(folder: str | Path, *, progress: Any = None) -> Run:
     Needs nothing but the folder: the cage is the one that the run had. An edit of its case.toml is
     ignored with a warning.
     """
-    case, store, edited = open_folder(Path(folder))
-    tell_unfinished(Path(folder), store, case.solver.duration)
+    path = path_of(folder, "run")
+    case, store, edited = open_folder(path)
+    tell_unfinished(path, store, case.solver.duration)
     stages = Stages(progress)
-    mesh, cage = stored_cage(case, store, Path(folder), stages)
-    return Run(case, store, Path(folder), mesh, cage, stages=stages, edited=edited)
+    mesh, cage = stored_cage(case, store, path, stages)
+    return Run(case, store, path, mesh, cage, stages=stages, edited=edited)

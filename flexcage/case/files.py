@@ -9,8 +9,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from flexcage.case.tables import expanded
-from flexcage.core.binding import default_of
+from flexcage.core.binding import default_of, path_of
 from flexcage.core.errors import InputError
 
 _CONTROL = re.compile(r"[\x00-\x1f]")
@@ -52,7 +51,7 @@ def absolute(file: str | Path, folder: Path, where: str) -> str:
             where=where,
             value=str(file),
         )
-    return str(folder / expanded(file, where=where)) if str(file) else ""
+    return str(folder / path_of(file, where)) if str(file) else ""
 
 
 def bytes_of(file: str) -> bytes:

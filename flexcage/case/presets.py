@@ -14,7 +14,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from flexcage.core.binding import Binder, near_names, told_elsewhere
+from flexcage.core.binding import Binder, expect, near_names, path_of, told_elsewhere
 from flexcage.core.errors import InputError
 from flexcage.core.registry import add, check_free
 from flexcage.core.toml import read_toml
@@ -86,6 +86,7 @@ def preset_names() -> list[str]:
 
 def load_preset(name: str) -> Preset:
     """Preset by name; an unknown name is an InputError that tells the nearest."""
+    expect(name, str, "preset")
     if name in _ADDED:
         return _ADDED[name]
     names = preset_names()
@@ -135,7 +136,7 @@ def register_preset(path: str | Path) -> Preset:
     then starts from it. Raises InputError for a file that cannot be read, a name that is taken, or
     a bearing and cage that cannot be.
     """
-    path = Path(path).expanduser()
+    path = path_of(path, "preset")
     try:
         text = path.read_text("utf-8")
     except (OSError, UnicodeDecodeError) as exc:

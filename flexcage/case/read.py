@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from flexcage.case.tables import expanded
+from flexcage.core.binding import path_of
 from flexcage.core.errors import InputError
 from flexcage.core.missing import no_file
 from flexcage.core.toml import read_toml
@@ -18,7 +18,7 @@ def read_case(source: str | Path | Mapping[str, Any]) -> tuple[dict[str, Any], P
         return dict(source), None
     if isinstance(source, str) and ("\n" in source or "=" in source):
         return read_toml(source, "The text", where="case"), None
-    path = expanded(source, where="case")
+    path = path_of(source, "case")
     table = read_toml(_text(path), str(path), where="case")
     if "case" in table and "bearing" not in table:
         raise InputError(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 
 from flexcage.case.presets import NAMED, Preset, load_preset
@@ -107,15 +106,3 @@ def words_of_text() -> Iterator[None]:
 
 def as_table(section: Any) -> Mapping[str, Any]:
     return section if isinstance(section, Mapping) else to_table(section, named=NAMED)
-
-
-def expanded(file: str | Path, *, where: str) -> Path:
-    """Path of a file with the home folder in the place of ``~``."""
-    try:
-        return Path(file).expanduser()
-    except RuntimeError as exc:
-        raise InputError(
-            f"{where} is '{file}', but there is no user whose home folder that begins with.",
-            where=where,
-            value=str(file),
-        ) from exc

@@ -9,6 +9,7 @@ from __future__ import annotations
 import dataclasses
 import difflib
 import numbers
+import os
 import re
 import types
 import typing
@@ -328,6 +329,19 @@ def expect(value: Any, kinds: type | tuple[type, ...], where: str, remedy: str =
     if not isinstance(value, kinds):
         names = " or ".join(k.__name__ for k in (kinds if isinstance(kinds, tuple) else (kinds,)))
         raise wrong_type(value, f"a {names}{'; ' if remedy else ''}{remedy}", where)
+
+
+def path_of(file: Any, where: str) -> Path:
+    """An argument ``where`` as a path, with the home folder in the place of ``~``."""
+    expect(file, (str, os.PathLike), where, "the path of a file or folder")
+    try:
+        return Path(file).expanduser()
+    except RuntimeError as exc:
+        raise InputError(
+            f"{where} is '{file}', but there is no user whose home folder that begins with.",
+            where=where,
+            value=str(file),
+        ) from exc
 
 
 def _check_kind(value: Any, hint: Any, meta: Mapping, where: str) -> None:

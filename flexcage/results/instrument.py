@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from flexcage.core.binding import path_of
 from flexcage.core.errors import InputError
 from flexcage.core.units import mm
 
@@ -236,10 +237,11 @@ def load_times(path: str | Path) -> np.ndarray | None:
 
 def _columns(path: str | Path) -> tuple[list[str], np.ndarray]:
     """Names of a CSV file's columns, and its numbers (n, columns)."""
+    file = path_of(path, "readings")
     try:
-        with Path(path).open(encoding="utf-8-sig") as file:
-            names = [name.strip() for name in file.readline().split(",")]
-            lines = [line for line in file if line.strip()]
+        with file.open(encoding="utf-8-sig") as text:
+            names = [name.strip() for name in text.readline().split(",")]
+            lines = [line for line in text if line.strip()]
         table = np.loadtxt(lines, delimiter=",", ndmin=2) if lines else np.empty((0, 0))
     except OSError as exc:
         raise InputError(f"The readings '{path}' cannot be read: {exc.strerror}.") from exc

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from flexcage.case import Case
-from flexcage.core.binding import Binder, check_spec
+from flexcage.core.binding import Binder, check_spec, path_of
 from flexcage.core.errors import InputError
 from flexcage.core.hashing import seal_holds, sealed
 from flexcage.core.reading import read_json, table_of
@@ -135,7 +135,7 @@ def load_map(path: str | Path, *, overrides: Mapping[str, Any] | None = None) ->
 
     Loads the extensions that the file names under ``use``. A mistake raises InputError.
     """
-    path = Path(path).expanduser()
+    path = path_of(path, "map")
     table = read_file(path)
     use_extensions(table, path)
     case = base_case(table.get("case"), path, overrides)

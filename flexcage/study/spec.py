@@ -14,7 +14,7 @@ from flexcage.case.extensions import not_loaded, sources
 from flexcage.case.files import file_paths
 from flexcage.case.presets import NAMED
 from flexcage.case.toml import write_toml
-from flexcage.core.binding import Binder, check_spec, to_table, unit_at, wrong_type
+from flexcage.core.binding import Binder, check_spec, path_of, to_table, unit_at, wrong_type
 from flexcage.core.errors import InputError
 from flexcage.core.missing import no_file
 from flexcage.core.spec import option, quantity
@@ -81,7 +81,7 @@ def load_study(path: str | Path, *, overrides: Mapping[str, Any] | None = None) 
 
     Loads the extensions that the file names under ``use``. A mistake raises InputError.
     """
-    path = Path(path).expanduser()
+    path = path_of(path, "study")
     table = read_file(path)
     check_format(table.pop("format", FORMAT), path)
     use_extensions(table, path)

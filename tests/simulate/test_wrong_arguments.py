@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from simulate_cases import n1013
 
+import flexcage
 from flexcage import run_study, solve_static
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.render import album
@@ -140,3 +141,10 @@ def test_one_variable_may_be_a_name(rigid, tmp_path):
         for k, names in enumerate(("race_force", ["race_force"]))
     )
     assert one[0].read_bytes() == listed[0].read_bytes()
+
+
+@pytest.mark.parametrize("what", ["case", "preset", "readings", "run", "static", "study"])
+@pytest.mark.parametrize("wrong", [None, 5, ["n1013.toml"]])
+def test_what_is_loaded_has_a_name(what, wrong):
+    named = {"static": "case"}.get(what, what)
+    refused(lambda: getattr(flexcage, f"load_{what}")(wrong), named, f"{wrong!r}", "a str")
