@@ -17,6 +17,7 @@ from typing import Any
 from flexcage.core.binding import Binder, expect, near_names, path_of, told_elsewhere
 from flexcage.core.errors import InputError
 from flexcage.core.registry import add, check_free
+from flexcage.core.texts import text_of
 from flexcage.core.toml import read_toml
 from flexcage.core.units import parse
 from flexcage.geometry.bearing import OTHER_DESIGNS, Bearing
@@ -138,9 +139,9 @@ def register_preset(path: str | Path) -> Preset:
     """
     path = path_of(path, "preset")
     try:
-        text = path.read_text("utf-8")
-    except (OSError, UnicodeDecodeError) as exc:
-        reason = getattr(exc, "strerror", None) or "not a text file"
+        text = text_of(path, "a preset is TOML", where="preset")
+    except OSError as exc:
+        reason = exc.strerror or exc
         raise InputError(f"The preset '{path}' cannot be read: {reason}.", where="preset") from exc
     table = read_toml(text, f"The preset '{path}'", where="preset")
     try:

@@ -9,6 +9,7 @@ from typing import Any
 from flexcage.core.binding import path_of
 from flexcage.core.errors import InputError
 from flexcage.core.missing import no_file
+from flexcage.core.texts import text_of
 from flexcage.core.toml import read_toml
 
 
@@ -21,8 +22,9 @@ def read_case(source: str | Path | Mapping[str, Any]) -> tuple[dict[str, Any], P
     path = path_of(source, "case")
     table = read_toml(_text(path), str(path), where="case")
     if "case" in table and "bearing" not in table:
+        what, way = ("map", "map") if "unknowns" in table else ("study", "run")
         raise InputError(
-            f"'{path}' is a study, not a case; take 'flexcage study run {path}'.",
+            f"'{path}' is a {what}, not a case; take 'flexcage study {way} {path}'.",
             where="case",
             value=str(path),
         )
@@ -31,15 +33,13 @@ def read_case(source: str | Path | Mapping[str, Any]) -> tuple[dict[str, Any], P
 
 def _text(path: Path) -> str:
     try:
-        return path.read_text("utf-8-sig")  # some editors begin a file with a byte order mark
+        return text_of(path, "a case is TOML", where="case")
     except FileNotFoundError:
         sentence = f"{no_file('case file', path, ('.toml',))}."
     except IsADirectoryError:
         sentence = f"'{path}' is a folder; name the .toml case file in it."
     except PermissionError:
         sentence = f"The case file '{path}' may not be read; check its permissions."
-    except UnicodeDecodeError:
-        sentence = f"'{path}' is not a text file; a case is TOML text in UTF-8."
     except (OSError, ValueError) as exc:  # a name that no file can have
         reason = getattr(exc, "strerror", None) or exc
         sentence = f"The case file '{path}' cannot be read: {reason}."

@@ -20,6 +20,7 @@ from scipy.spatial.transform import Rotation
 
 from flexcage.core.binding import path_of
 from flexcage.core.errors import InputError
+from flexcage.core.texts import text_of
 from flexcage.core.units import mm
 
 if TYPE_CHECKING:
@@ -239,17 +240,47 @@ def _columns(path: str | Path) -> tuple[list[str], np.ndarray]:
     """Names of a CSV file's columns, and its numbers (n, columns)."""
     file = path_of(path, "readings")
     try:
-        with file.open(encoding="utf-8-sig") as text:
-            names = [name.strip() for name in text.readline().split(",")]
-            lines = [line for line in text if line.strip()]
-        table = np.loadtxt(lines, delimiter=",", ndmin=2) if lines else np.empty((0, 0))
+        first, *rest = text_of(file, "readings are").splitlines() or [""]
     except OSError as exc:
         raise InputError(f"The readings '{path}' cannot be read: {exc.strerror}.") from exc
-    except ValueError as exc:
-        raise InputError(f"The readings '{path}' hold what is no number: {exc}.") from exc
-    if table.shape[1] != len(names):
+    names = [name.strip() for name in first.split(",")]
+    lines = [(number, line) for number, line in enumerate(rest, 2) if line.strip()]
+    other = next((f"'{mark}'" if mark == ";" else "tabs" for mark in ";\t" if mark in first), None)
+    if other:
         raise InputError(
-            f"The readings '{path}' name {len(names)} columns, but their lines hold "
-            f"{table.shape[1]} numbers; give one number a column and line."
+            f"The readings '{path}' have {other} between their columns; write commas there, and "
+            "numbers with a point, as 0.15."
         )
+    if not lines:
+        raise InputError(
+            f"The readings '{path}' hold 0 numbers below their first line, which names the columns."
+        )
+    try:
+        table = np.loadtxt([line for _, line in lines], delimiter=",", ndmin=2)
+    except ValueError:
+        table = np.full((1, 1), np.nan)
+    if table.shape[1] != len(names) or not np.isfinite(table).all():
+        raise InputError(f"The readings '{path}' {_fault(names, lines)}.")
     return names, table
+
+
+def _fault(names: list[str], lines: list[tuple[int, str]]) -> str:
+    """What is wrong with the first line that is."""
+    for number, line in lines:
+        entries = [entry.strip() for entry in line.split(",")]
+        if len(entries) != len(names):
+            return (
+                f"name {len(names)} columns, but their line {number} holds {len(entries)} numbers; "
+                "write one number a column, with a point, as 0.15"
+            )
+        for name, entry in zip(names, entries):
+            try:
+                known = np.isfinite(float(entry))
+            except ValueError:
+                known = False
+            if not known:
+                return (
+                    f"hold what is no number: '{entry}' in line {number}, column '{name}'; leave "
+                    "out lines without a reading"
+                )
+    return "hold what is no number"

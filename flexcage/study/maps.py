@@ -35,7 +35,7 @@ from flexcage.study.plan import make_plan
 from flexcage.study.results import StudyResults
 from flexcage.study.run import check_physics, run_study
 from flexcage.study.sensitivity import Index, indices
-from flexcage.study.spec import KEEP, Study, base_case, read_file, use_extensions
+from flexcage.study.spec import KEEP, Study, base_case, check_kind, read_file, use_extensions
 from flexcage.study.unknowns import DESIGNS, DUMMY, Unknown, check_unknowns, design_of
 from flexcage.system.spec import MOST_PUSH
 
@@ -137,6 +137,7 @@ def load_map(path: str | Path, *, overrides: Mapping[str, Any] | None = None) ->
     """
     path = path_of(path, "map")
     table = read_file(path)
+    check_kind(table, path, "map")
     use_extensions(table, path)
     case = base_case(table.get("case"), path, overrides)
     unknowns = [_with_paths(u) for u in table.get("unknowns", [])]

@@ -18,6 +18,7 @@ from flexcage.core.binding import Binder, check_spec, path_of, to_table, unit_at
 from flexcage.core.errors import InputError
 from flexcage.core.missing import no_file
 from flexcage.core.spec import option, quantity
+from flexcage.core.texts import text_of
 from flexcage.core.toml import read_toml
 from flexcage.core.units import format_si, parse
 from flexcage.core.writing import check_name
@@ -139,20 +140,31 @@ def _named(files: list[str]) -> str:
 
 
 def _bound(table: dict[str, Any], path: Path, overrides: Mapping[str, Any] | None) -> Study:
-    case = table.get("case")
-    if case is None and "bearing" in table:
-        raise InputError(
-            f"'{path}' is a case, not a study; take 'flexcage run {path}', or name it in a study "
-            'as case = "my_case.toml".',
-            where="case",
-        )
-    case = base_case(case, path, overrides)
+    check_kind(table, path, "study")
+    case = base_case(table.get("case"), path, overrides)
     binder = Binder(named=NAMED)
     axes = [_with_type(axis) for axis in _listed(table.get("axes", []), "axes")]
     bound = binder.bind(_Axes, {"axes": axes}, "").axes
     change = partial(_from_file, case, path.resolve().parent)
     axes = [axis.mapped(change) for axis in bound]
     return binder.bind(Study, {**table, "case": case, "axes": axes}, "")
+
+
+def check_kind(table: Mapping[str, Any], path: Path, wanted: str) -> None:
+    """InputError for a file that is a case, or a map where a study is ``wanted``, or a study where
+    a map is: with the command that takes it."""
+    if "case" not in table and "bearing" in table:
+        raise InputError(
+            f"'{path}' is a case, not a {wanted}; take 'flexcage run {path}', or name it in a "
+            f'{wanted} as case = "my_case.toml".',
+            where="case",
+        )
+    found, way = ("map", "map") if "unknowns" in table else ("study", "run")
+    if found != wanted and ("axes" in table) != ("unknowns" in table):
+        raise InputError(
+            f"'{path}' is a {found}, not a {wanted}; take 'flexcage study {way} {path}'.",
+            where="study",
+        )
 
 
 def base_case(case: Any, path: Path, overrides: Mapping[str, Any] | None) -> Case:
@@ -228,9 +240,7 @@ def check_format(found: Any, path: Path) -> None:
 def read_file(path: Path) -> dict[str, Any]:
     """Tables of a study's file; InputError for one that cannot be read."""
     try:
-        text = path.read_text("utf-8-sig")
-    except UnicodeDecodeError as exc:
-        raise InputError(f"'{path}' is not a text file; a study is TOML text in UTF-8.") from exc
+        text = text_of(path, "a study is TOML", where="study")
     except FileNotFoundError as exc:
         raise InputError(f"{no_file('study file', path, ('.toml',))}.", value=str(path)) from exc
     except OSError as exc:

@@ -383,6 +383,16 @@ def test_files_that_cannot_be_read(tmp_path):
             load_case(path)
 
 
+@pytest.mark.parametrize("coding", ["utf-16", "utf-16-le", "utf-16-be", "latin-1"])
+def test_text_in_another_encoding_is_told_how_to_save_it(tmp_path, coding):
+    file = tmp_path / "case.toml"
+    file.write_bytes(f'{PRESET}\n[drive]\nspeed = "6000 rpm" # Prüfung\n'.encode(coding))
+    with pytest.raises(InputError, match="in UTF-8: save the file again") as caught:
+        load_case(file)
+    said = "is text in UTF-16" if coding != "latin-1" else "its line "
+    assert said in str(caught.value)
+
+
 def test_a_byte_order_mark_is_no_mistake(tmp_path):
     (tmp_path / "case.toml").write_text(PRESET, encoding="utf-8-sig")
     assert load_case(tmp_path / "case.toml").preset == "N1013"

@@ -105,11 +105,31 @@ def test_readings_of_a_rig(tmp_path):
     with pytest.raises(InputError, match="cannot be read"):
         load_readings(tmp_path / "none.csv")
     file.write_text("X1,Y,Z,X2,X3\n1,2,3,4\n")
-    with pytest.raises(InputError, match="name 5 columns, but their lines hold 4"):
+    with pytest.raises(InputError, match="name 5 columns, but their line 2 holds 4"):
         load_readings(file)
     file.write_text("X1,Y,Z,X2,X3\n")
     with pytest.raises(InputError, match="hold 0 numbers"):
         load_readings(file)
+
+
+@pytest.mark.parametrize(
+    ("text", "coding", "words"),
+    [
+        ("Y;Z;X1;X2;X3\n0,1;0,2;0,3;0,4;0,5\n", "utf-8", "have ';' between their columns; write"),
+        ("Y\tZ\tX1\tX2\tX3\n1\t2\t3\t4\t5\n", "utf-8", "have tabs between their columns"),
+        ("Y,Z,X1,X2,X3\n0,1,0,2,0,3,0,4,0,5\n", "utf-8", "line 2 holds 10 numbers; write one"),
+        ("Y,Z,X1,X2,X3\n1,2,3,4,5\n\n1,,3,4,5\n", "utf-8", "'' in line 4, column 'Z'; leave out"),
+        ("Y,Z,X1,X2,X3\n1,2,nan,4,5\n", "utf-8", "'nan' in line 2, column 'X1'"),
+        ("Y,Z,X1,X2,X3\n1,2,3,4,5\n", "utf-16", "is text in UTF-16; readings are text in UTF-8"),
+        ("Y,Z,X1,X2,X3,Größe\n1,2,3,4,5,6\n", "latin-1", "line 1 has a character of another enc"),
+    ],
+)  # fmt: skip
+def test_readings_that_another_program_wrote(tmp_path, text, coding, words):
+    file = tmp_path / "rig.csv"
+    file.write_bytes(text.encode(coding))
+    with pytest.raises(InputError, match=words) as caught:
+        load_readings(file)
+    assert str(caught.value).endswith(".") and not str(caught.value).endswith("..")
 
 
 def test_times_of_a_rig(tmp_path):

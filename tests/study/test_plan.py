@@ -15,6 +15,7 @@ from flexcage.geometry.materials import MATERIALS
 from flexcage.study import run
 from flexcage.study.axes import Grid, LatinHypercube, Points, Zip
 from flexcage.study.folder import Folder
+from flexcage.study.maps import load_map
 from flexcage.study.outputs import beyond_summary, check_outputs
 from flexcage.study.plan import make_plan
 from flexcage.study.spec import Repeat, Study, load_study
@@ -250,6 +251,23 @@ def test_a_study_without_a_case(tmp_path):
     (tmp_path / "study.toml").write_text('case = "case.toml"\noutputs = ["cage_speed"]')
     with pytest.raises(InputError, match="is a study, not a case; take 'flexcage study run"):
         load_case(tmp_path / "study.toml")
+
+
+def test_maps_and_studies_name_each_others_commands(tmp_path):
+    (tmp_path / "case.toml").write_text('[bearing]\npreset = "N1013"\n')
+    head = 'case = "case.toml"\noutputs = ["cage_speed"]\n'
+    axis = 'path = "load.radial"\nvalues = ["1 N"]\n'
+    study, a_map = tmp_path / "study.toml", tmp_path / "map.toml"
+    study.write_text(f"{head}[[axes]]\n{axis}")
+    a_map.write_text(f"{head}[[unknowns]]\n{axis}")
+    with pytest.raises(InputError, match="is a map, not a study; take 'flexcage study map"):
+        load_study(a_map)
+    with pytest.raises(InputError, match="is a study, not a map; take 'flexcage study run"):
+        load_map(study)
+    with pytest.raises(InputError, match="is a case, not a map; take 'flexcage run"):
+        load_map(tmp_path / "case.toml")
+    with pytest.raises(InputError, match="is a map, not a case; take 'flexcage study map"):
+        load_case(a_map)
 
 
 def test_lists_without_labels_share_no_column():
