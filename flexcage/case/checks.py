@@ -369,8 +369,14 @@ def _find_in_tables(case: Case) -> Iterator[Finding]:
             )
         if len(times) == 1:
             yield f"{room}.times", f"{room}.times has one entry; a table needs two or more."
-        if any(late <= early for early, late in zip(times, times[1:])):
-            yield f"{room}.times", f"{room}.times must rise from entry to entry."
+        for n, (early, late) in enumerate(zip(times, times[1:]), 1):
+            if late <= early:
+                yield (
+                    f"{room}.times",
+                    f"{room}.times must rise from entry to entry, but entry {n} is {late:g} s, "
+                    f"after {early:g} s; sort the table, with its {name}.",
+                )
+                break
 
 
 def _find_in_ramps(case: Case) -> Iterator[Finding]:

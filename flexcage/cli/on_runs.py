@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from flexcage.cli.files import existing_run, prepare_file, prepare_out
-from flexcage.cli.parser import command, picture_options, say
+from flexcage.cli.parser import command, number, picture_options, say, whole_number
 from flexcage.cli.settings import case_from, look_of, told_case_from
 from flexcage.core.errors import InputError
 from flexcage.core.output_folders import check_either
@@ -41,12 +41,12 @@ def add_commands(commands: Any) -> None:
     fatigue = command(commands, "fatigue", fatigue_command, text)
     fatigue.add_argument("run", metavar="RUN", help="run folder")
     fatigue.add_argument("--place", metavar="NAME", help="one place, such as pocket5_root_rear+x")
-    fatigue.add_argument("--rows", type=int, metavar="N", help="the worst N places alone")
+    fatigue.add_argument("--rows", type=whole_number, metavar="N", help="the worst N places alone")
     text = "wear of a stored run's pockets and land by Archard's law"
     wear = command(commands, "wear", wear_command, text)
     wear.add_argument("run", metavar="RUN", help="run folder")
     wear.add_argument("--coefficient", metavar="K", help='of wear, such as "1e-8 mm^3/(N*m)"')
-    wear.add_argument("--hours", type=float, default=1.0, metavar="H", help="depths after H hours")
+    wear.add_argument("--hours", type=number, default=1.0, metavar="H", help="depths after H hours")
     compare = command(
         commands, "compare", compare_command, "one case rigid and flexible, or two runs"
     )
@@ -88,7 +88,7 @@ def _add_export(commands: Any) -> None:
     )  # fmt: skip
     export.add_argument("--to", dest="end", metavar="TIME", help="last instant")
     export.add_argument(
-        "--count", type=int, metavar="N", help="so many, evenly (default: every sample)"
+        "--count", type=whole_number, metavar="N", help="so many, evenly (default: every sample)"
     )
 
 

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from flexcage.cli.parser import command, say
+from flexcage.cli.parser import command, say, whole_number
 from flexcage.cli.settings import settings_of
 
 
@@ -24,14 +24,18 @@ def add_commands(commands: Any) -> None:
     resume.add_argument("dir", metavar="DIR", help="study folder")
     for parser in (run, resume):
         where = parser.add_mutually_exclusive_group()
-        where.add_argument("--workers", type=_count, metavar="N", help="processes (default: cores)")
+        where.add_argument(
+            "--workers", type=whole_number, metavar="N", help="processes (default: cores)"
+        )
         where.add_argument("--scheduler", metavar="ADDRESS", help="a running Dask scheduler")
         parser.add_argument("--retry", action="store_true", help="try failed cases again")
         _other_version(parser)
     unknowns = command(actions, "map", study_map_command, "sample unknowns, and say what decides")
     unknowns.add_argument("map", metavar="MAP", help="map file (.toml)")
     unknowns.add_argument("-o", "--out", metavar="DIR", help="map folder (default: runs/NAME)")
-    unknowns.add_argument("--workers", type=_count, metavar="N", help="processes (default: cores)")
+    unknowns.add_argument(
+        "--workers", type=whole_number, metavar="N", help="processes (default: cores)"
+    )
     unknowns.add_argument(
         "--set", action="append", metavar="PATH=VALUE", help="change a value of the base case"
     )
@@ -70,12 +74,6 @@ def _percent(text: str) -> float:
         return float(text.removesuffix("%")) / (100.0 if text.endswith("%") else 1.0)
     except ValueError:
         raise argparse.ArgumentTypeError(f"'{text}' should be a percentage, as 5%") from None
-
-
-def _count(text: str) -> int:
-    if not text.isdigit() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"'{text}' should be a whole number, 1 or more")
-    return int(text)
 
 
 def study_run_command(args: argparse.Namespace) -> int:

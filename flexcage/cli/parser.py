@@ -69,6 +69,21 @@ def new_parser() -> argparse.ArgumentParser:
     return parser
 
 
+def whole_number(text: str) -> int:
+    """The value of an option that counts: 1 or more."""
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"'{text}' should be a whole number, 1 or more")
+    return int(text)
+
+
+def number(text: str) -> float:
+    """The value of an option that is a plain number."""
+    try:
+        return float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}' should be a number, as 1.5") from None
+
+
 def command(commands: Any, name: str, function: Any, text: str) -> argparse.ArgumentParser:
     """Add a command that calls ``function`` with the parsed arguments; its own parser."""
     parser = commands.add_parser(name, help=text, description=text)

@@ -297,8 +297,10 @@ def _set_item(
     head, _, rest = path.partition(".")
     if not head.isdigit() or int(head) >= len(old):
         have = f"0 to {len(old) - 1}" if old else "none"
+        tables = dataclasses.is_dataclass(next(iter(typing.get_args(hint)), None))
+        remedy = f", and the case must have [[{where}]] first" if tables and not old else ""
         raise InputError(
-            f"{where} has no entry '{head}'; there are {have}.", where=where, value=head
+            f"{where} has no entry '{head}'; there are {have}{remedy}.", where=where, value=head
         )
     i = int(head)
     items = list(old)

@@ -60,6 +60,10 @@ def _found(path: Path, wanted: str) -> Iterator[str]:
     if (path / "compare.json").is_file():
         inside = _runs_in(path)
         yield "it is that of a comparison" + (f", whose runs are {inside}" if inside else "")
+    if (path / "summary.json").is_file() and "run" in wanted:
+        packed = next(path.glob(f"{RESULTS}.*"), None)
+        way = f"unpack '{packed}' there" if packed else "bring it back from a copy"
+        yield f"its run has finished, but its {RESULTS} is gone; {way}, or run the case again"
     if (path / "case.toml").is_file() or (path / LOCK).is_file():
         yield f"it has no {RESULTS}, for its run has not come to its first results"
     if inside := _runs_in(path):

@@ -290,8 +290,11 @@ class RunStore(MemoryRunStore):
             layout = read_layout(path)
         except InputError:
             raise
+        except FileNotFoundError as error:
+            lost = Path(error.filename).name if error.filename else "files of its arrays"
+            raise damaged(path, f"lacks {lost}") from error
         except Exception as error:  # of whichever library reads a part of it
-            raise InputError(f"The arrays of {path} cannot be opened: {error}.") from error
+            raise damaged(path, f"has arrays that cannot be opened ({error})") from error
         store = cls(path, layout, commit)
         _check_whole(store)
         return store

@@ -11,6 +11,7 @@ from flexcage import cli
 from flexcage.cli.files import prepare_out
 
 EXAMPLE = str(Path(__file__).parents[2] / "examples" / "n1013.toml")
+BALLS = str(Path(__file__).parents[2] / "examples" / "6205_crown.toml")
 
 
 @pytest.fixture(autouse=True)
@@ -54,6 +55,21 @@ MISTAKES = {
         ["run", EXAMPLE, "--set", "defects.1.displacement=0.1 mm"],
         ["defects has no entry '1'", "0 to 0"],
     ),
+    "no defect at all": (
+        ["run", BALLS, "--set", "defects.0.displacement=0.1 mm"],
+        ["there are none, and the case must have [[defects]] first"],
+    ),
+    "times that fall": (
+        [
+            "run",
+            EXAMPLE,
+            "--set",
+            'load.times=["0 s","5 ms","2 ms"]',
+            "--set",
+            'load.values=["1 N","2 N","3 N"]',
+        ],
+        ["entry 2 is 0.002 s, after 0.005 s; sort the table, with its values"],
+    ),
     "overlap": (["run", EXAMPLE, "--set", "bearing.roller_count=33"], ["33 rollers", "overlap"]),
     "wide pocket": (["mesh", EXAMPLE, "--set", "cage.pocket_width=12 mm"], ["thinner than zero"]),
     "narrow pocket": (["modes", EXAMPLE, "--set", "cage.pocket_width=7 mm"], ["-1 mm"]),
@@ -83,9 +99,11 @@ MISTAKES = {
 def folders(elsewhere):
     """A run, a study, a comparison and a run that has not begun, by their names; and two files."""
     for name in ("runs/good/results.zarr", "runs/other/results.zarr", "both/rigid/results.zarr",
-                 "study/cases", "begun"):  # fmt: skip
+                 "study/cases", "begun", "lost", "packed"):  # fmt: skip
         (elsewhere / name).mkdir(parents=True)
-    for name in ("study/study.toml", "both/compare.json", "begun/case.toml", "mine.toml", "a.png"):
+    for name in ("study/study.toml", "both/compare.json", "begun/case.toml", "mine.toml", "a.png",
+                 "lost/summary.json", "packed/summary.json",
+                 "packed/results.zarr.zip"):  # fmt: skip
         (elsewhere / name).write_text("")
 
 
@@ -96,6 +114,10 @@ ORDERS = {
     "spaces in --set": ["run", "mine.toml", "--set", "load.radial", "=", "5 N"],
     "a unit apart": ["run", "mine.toml", "--set", "load.radial=5", "N"],
     "a key as an option": ["run", "mine.toml", "--speed", "6000"],
+    "hours in words": ["wear", "runs/good", "--hours", "ten"],
+    "rows of none": ["fatigue", "runs/good", "--rows", "0"],
+    "no instants": ["export", "runs/good", "--table", "a.csv", "--count", "0"],
+    "a count as a float": ["export", "runs/good", "--table", "a.csv", "--count", "1e3"],
 }
 ORDERS_SAY = {
     "case before command": "the command comes first, as in: flexcage run mine.toml",
@@ -104,6 +126,10 @@ ORDERS_SAY = {
     "spaces in --set": '--set takes one word, as --set "load.radial=500 N"',
     "a unit apart": '--set takes one word, as --set "load.radial=500 N"',
     "a key as an option": "a value of the case is changed by --set PATH=VALUE",
+    "hours in words": "'ten' should be a number, as 1.5",
+    "rows of none": "'0' should be a whole number, 1 or more",
+    "no instants": "'0' should be a whole number, 1 or more",
+    "a count as a float": "'1e3' should be a whole number, 1 or more",
 }
 
 
@@ -163,6 +189,8 @@ WRONG_FOLDERS = {
     "a study": (["export", "study"], "it is that of a study, whose runs are in 'study/cases'"),
     "a comparison": (["report", "both"], "it is that of a comparison, whose runs are 'both/rigid'"),
     "a run not begun": (["render", "begun"], "its run has not come to its first results"),
+    "a run without its arrays": (["wear", "lost"], "is gone; bring it back from a copy"),
+    "a packed run": (["report", "packed"], "is gone; unpack 'packed/results.zarr.zip' there"),
     "a run misspelt": (["wear", "runs/goood"], "the nearest one there is 'runs/good'"),
     "no ending": (["run", "mine"], "no case file 'mine'; the nearest one there is 'mine.toml'"),
     "no folder": (["run", "nowhere/mine.toml"], "there is no folder 'nowhere'"),

@@ -114,15 +114,17 @@ FACES = ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0))  # S1 to S4 of a tetrahedro
 MIDDLES = ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))
 
 
-def write_deck_of_surfaces(mesh, path, *, quadratic=False, bulge=0.0, part=True, name=str):
+def write_deck_of_surfaces(mesh, path, *, quadratic=False, bulge=0.0, part=True, name=str,
+                           order=range(6)):  # fmt: skip
     """A deck in mm as Abaqus/CAE writes it: solids in a part, surfaces of their faces in the
-    assembly. ``bulge`` moves the nodes in the middle of edges away from the axis."""
+    assembly. ``bulge`` moves the nodes in the middle of edges away from the axis; ``order`` is
+    theirs in each element."""
     points, tets, written = mesh.points * 1e3, mesh.tets, mesh.tets
     if quadratic:
         pairs = np.sort(tets[:, MIDDLES].reshape(-1, 2), axis=1)
         edges, which = np.unique(pairs, axis=0, return_inverse=True)
         middle = points[edges].mean(axis=1) * [1.0, 1.0 + bulge, 1.0 + bulge]
-        written = np.hstack([tets, len(points) + which.reshape(-1, 6)])
+        written = np.hstack([tets, len(points) + which.reshape(-1, 6)[:, list(order)]])
         points = np.vstack([points, middle])
     lines = ["*Heading", "** a comment", *(["*Part, name=CAGE"] if part else []), "*Node"]
     lines += [f"{i + 1:7d}, " + ", ".join(f"{c:.12g}" for c in p) for i, p in enumerate(points)]
@@ -172,6 +174,18 @@ def test_curved_edges_are_told_of(n1013, tmp_path, caplog):
     read = read_mesh(path, unit="mm")
     assert read.volume == pytest.approx(mesh.volume, rel=1e-9)
     assert "curved faces become flat" in caplog.text and "% of an edge" in caplog.text
+    assert "order of another program" not in caplog.text
+
+
+def test_nodes_on_edges_in_another_programs_order_are_no_curves(n1013, tmp_path, caplog):
+    """gmsh numbers the last two edges of a tetrahedron the other way round than Abaqus."""
+    mesh = n1013(fineness="coarse")
+    path = write_deck_of_surfaces(
+        mesh, tmp_path / "c.inp", quadratic=True, order=[0, 1, 2, 3, 5, 4]
+    )
+    read = read_mesh(path, unit="mm")
+    assert read.volume == pytest.approx(mesh.volume, rel=1e-9)
+    assert "order of another program, which does no harm if the first four" in caplog.text
 
 
 @pytest.mark.parametrize("order", [1, 2])

@@ -270,3 +270,11 @@ def test_a_compression_that_is_not_read_is_named(n1013, tmp_path):
     writer.Write()
     with pytest.raises(InputError, match="compressed by LZ4, which is not read; write them with"):
         read_mesh(tmp_path / "theirs.vtu")
+
+
+def test_numbers_that_no_program_counts_to_are_named(tmp_path):
+    (tmp_path / "cage.inp").write_text(
+        f"*NODE\n{10**20}, 0, 0, 0\n*ELEMENT, TYPE=C3D4\n1, {10**20}, 2, 3, 4\n"
+    )
+    with pytest.raises(InputError, match="line 2: the number 1000+ is larger than any program"):
+        read_mesh(tmp_path / "cage.inp")

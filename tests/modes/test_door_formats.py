@@ -365,6 +365,9 @@ ARRAYS = {
     "all from 0": (lambda b: {"DOFS": b.dofs}, "from 0; count both from 1"),
     "nodes from 0": (lambda b: {"DOFS": b.dofs + [0, 1]}, "count nodes from 0; count both"),
     "components over 6": (lambda b: {"DOFS": b.dofs + [1, 7]}, "have the component 9, but"),
+    "texts": (lambda b: {"K": b.stiffness.astype(str)}, "K is texts, but should be a table of"),
+    "a vector": (lambda b: {"M": np.diag(b.mass)}, "M is an array of 1 dimensions, but"),
+    "nodes as texts": (lambda b: {"NODES": b.nodes.astype(str)}, "NODES is texts, but should be a"),
     "nodes transposed": (lambda b: {"NODES": b.nodes.T}, "should have 3 columns; write it transp"),
     "nodes with numbers": (
         lambda b: {"NODES": np.column_stack([np.arange(len(b.nodes)), b.nodes])},

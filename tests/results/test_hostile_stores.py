@@ -503,3 +503,11 @@ def test_a_run_does_not_go_on_in_a_folder_that_is_no_longer_there(run, tmp_path,
 def _content(folder: Path) -> dict[str, str]:
     files = (path for path in folder.rglob("*") if path.is_file())
     return {str(path): hashlib.sha256(path.read_bytes()).hexdigest() for path in files}
+
+
+@pytest.mark.parametrize("file", ["zarr.json", "time/zarr.json"])
+def test_a_run_copied_without_all_its_files_says_what_to_do(run, file):
+    (run / file).unlink()
+    with pytest.raises(InputError, match="bring it back from a copy, or run the case") as caught:
+        RunStore.open(run)
+    assert "Errno" not in str(caught.value)

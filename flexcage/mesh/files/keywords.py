@@ -10,6 +10,7 @@ from flexcage.mesh.files.raw import Refused, lines_of
 
 # Keywords of the model that neither make nor move nodes, elements or their sets. Any other one is
 # refused by name; what stands after *STEP is history.
+_LARGEST = 2**62  # number of a node or an element
 _HARMLESS = """
 HEADING; PREPRINT; RESTART; FILE FORMAT; TIME POINTS; FILTER; AMPLITUDE; PHYSICAL CONSTANTS;
 BOUNDARY; BASE MOTION; INITIAL CONDITIONS; EQUATION; MPC; USER MPC; COUPLING; KINEMATIC;
@@ -131,9 +132,12 @@ def refuse(block: Block) -> None:
 def whole(text: str, line: int) -> int:
     """A whole number of a deck."""
     try:
-        return int(text)
+        value = int(text)
     except ValueError:
         raise Refused(f"line {line}: '{text}' stands where a whole number belongs") from None
+    if abs(value) > _LARGEST:
+        raise Refused(f"line {line}: the number {text} is larger than any program counts; renumber")
+    return value
 
 
 def real(text: str, line: int) -> float:

@@ -22,6 +22,11 @@ _TEN = np.array([(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)])
 _MORE = np.array([(0, 1), (1, 2), (2, 0), (3, 0), (3, 2), (3, 1)])
 _ORDER = {10: 2, 20: 3, 35: 4, 56: 5, 84: 6, 120: 7, 165: 8, 220: 9, 286: 10}
 _STRAIGHT = 1e-3  # of an edge's length, that a node may lie off it by rounding
+_BENT = 0.5  # an edge that leaves its middle by more is none that a program meshes
+_ORDERED = (
+    ". Nodes that far off are no curves: they may be in the order of another program, which does "
+    "no harm if the first four of each element are its corners"
+)
 
 
 def sound_tetrahedra(raw: RawMesh, path: Path) -> np.ndarray:
@@ -158,6 +163,6 @@ def warn_of_curves(raw: RawMesh, path: Path) -> None:
     if worst > _STRAIGHT:
         log.warning(
             "%s: edges of elements are curved, with nodes up to %.2g %% of an edge off its middle; "
-            "elements are read by their corners, so that curved faces become flat",
-            path, 100.0 * worst,
+            "elements are read by their corners, so that curved faces become flat%s",
+            path, 100.0 * worst, _ORDERED if worst > _BENT else "",
         )  # fmt: skip

@@ -106,6 +106,10 @@ def from_matrices(found: Mapping[str, Any], path: Path, *, where: str) -> Conten
         )
     nodes, labels, shapes = picked(found, NODES), picked(found, DOFS), picked(found, SHAPES)
     kinds = picked(found, ("KIND",))
+    for name, value in zip(
+        "K M NODES DOFS SHAPES".split(), (stiffness, mass, nodes, labels, shapes)
+    ):
+        _check_numbers(name, value, path, where)
     size = stiffness.shape[0]
     return Contents(
         stiffness=stiffness,
@@ -117,6 +121,20 @@ def from_matrices(found: Mapping[str, Any], path: Path, *, where: str) -> Conten
         shapes=None if shapes is None else _wide(shapes, size, "SHAPES", path, where),
         kind=() if kinds is None else _kinds(np.ravel(_dense(kinds)), path, where=where),
     )
+
+
+def _check_numbers(name: str, value: Any, path: Path, where: str) -> None:
+    """InputError for an array that is no table of numbers; what a file lacks is None."""
+    if value is None:
+        return
+    kind, size = value.dtype.kind, value.ndim
+    if kind not in "biufc" or (size != 2 and name in "KM"):
+        found = "texts" if kind in "US" else f"an array of {size} dimensions"
+        raise InputError(
+            f"{path}: {name} is {found}, but should be a table of numbers, of rows and columns.",
+            where=where,
+            value=str(path),
+        )
 
 
 def to_matrices(body: ReducedBody) -> dict[str, Any]:
