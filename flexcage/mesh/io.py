@@ -220,11 +220,13 @@ def _named_triangles(raw: RawMesh, path: Path) -> Mapping[str, np.ndarray]:
     """Triangles (n, 3) of every surface name that the file carries, groups by their own names."""
     found: dict[str, list[np.ndarray]] = {}
     for name, triangles in raw.surfaces.items():
-        if len(triangles):
+        if len(triangles) and name.strip():
             found.setdefault(group_name(name) or name, []).append(triangles)
     if not found:
         others = [(n, w) for n, w in raw.no_surfaces.items() if group_name(n)]
         what = "".join(f"; '{name}' is {text}" for name, text in others[:1])
+        if any(len(triangles) for triangles in raw.surfaces.values()):
+            what = "; its groups have numbers alone (gmsh's format 1 keeps no names: save as 4.1)"
         raise InputError(
             f"{path} has no named surfaces; name the pocket faces, lands and end faces "
             f"(pocket0_front or pocket0_wall, ..., land_inner, end+x){what}",

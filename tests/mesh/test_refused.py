@@ -278,3 +278,25 @@ def test_numbers_that_no_program_counts_to_are_named(tmp_path):
     )
     with pytest.raises(InputError, match="line 2: the number 1000+ is larger than any program"):
         read_mesh(tmp_path / "cage.inp")
+
+
+_MSH_1 = """$NOD
+4
+1 0 0 0
+2 1 0 0
+3 0 1 0
+4 0 0 1
+$ENDNOD
+$ELM
+2
+1 2 1 1 3 1 2 3
+2 4 2 1 4 1 2 3 4
+$ENDELM
+"""
+
+
+def test_groups_without_names_are_told_so(tmp_path):
+    """Format 1 of gmsh keeps numbers of groups; once, its surfaces were one of an empty name."""
+    (tmp_path / "cage.msh").write_text(_MSH_1)
+    with pytest.raises(InputError, match="has no named surfaces.*format 1 keeps no names: save as"):
+        read_mesh(tmp_path / "cage.msh")
