@@ -111,3 +111,18 @@ def test_a_punch_of_all_nodes_is_refused_before_it_takes_memory(body, tmp_path, 
     monkeypatch.setattr(punch, "total_memory", lambda: 20e3)
     with pytest.raises(InputError, match="MAAX|KAAX has 2. columns, which as a full one take"):
         read_body(path)
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_punch_with_damping_is_refused(tmp_path):
+    """A complex DMIG matrix; once, its imaginary part was left out."""
+    pytest.importorskip("pyyeti")
+    entry = "DMIG    {:<8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}\n"
+    text = "".join(
+        entry.format(name, 0, 6, kind, 0, "", "", "", 1)
+        + entry.format(name, 1, 1, "", 1, 1, "1.0+6", imaginary, "")
+        for name, kind, imaginary in (("KAAX", 4, "1.0+3"), ("MAAX", 2, ""))
+    )
+    (tmp_path / "k.pch").write_text(f"GRID    {1:>8}{0:>8}{0.0:>8}{1.0:>8}{0.0:>8}\n{text}")
+    with pytest.raises(InputError, match="stiffness matrix is complex.*give damping as modes.damp"):
+        read_body(tmp_path / "k.pch")

@@ -41,7 +41,13 @@ def check_body(body: ReducedBody, *, where: str) -> None:
 
 def _check_numbers(body: ReducedBody, name: str, matrix: Any, where: str) -> None:
     values = matrix.data if sp.issparse(matrix) else np.asarray(matrix)
-    if np.iscomplexobj(values) or not np.isfinite(values).all():
+    if np.iscomplexobj(values):
+        raise InputError(
+            f"{body.source}: the {name} matrix is complex, as with structural damping; write the "
+            "real one without damping, and give damping as modes.damping.",
+            where=where,
+        )
+    if not np.isfinite(values).all():
         raise InputError(
             f"{body.source}: the {name} matrix has entries that are no real numbers.", where=where
         )

@@ -70,7 +70,8 @@ def _check_room(text: str) -> None:
 
 
 def _on(frame: Any, index: Any) -> np.ndarray:
-    return frame.reindex(index=index, columns=index, fill_value=0.0).to_numpy(float)
+    values: np.ndarray = frame.reindex(index=index, columns=index, fill_value=0.0).to_numpy()
+    return values if np.iscomplexobj(values) else values.astype(float)  # complex: refused later
 
 
 def write(body: ReducedBody, path: Path) -> None:
