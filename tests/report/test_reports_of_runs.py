@@ -116,7 +116,7 @@ def test_a_run_with_nothing_in_it_gets_a_sentence(tmp_path, capsys):
     assert cli.main(["report", str(tmp_path / "run")]) == 2
     err = capsys.readouterr().err
     err = err[err.index("flexcage: ") :]
-    assert "fewer than two samples" in err and re.fullmatch(r"flexcage: [^\n]*\.\n", err), err
+    assert "has no sample yet" in err and re.fullmatch(r"flexcage: [^\n]*\.\n", err), err
     assert not (tmp_path / "run" / "report.html").exists()
 
 

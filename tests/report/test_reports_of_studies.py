@@ -196,7 +196,7 @@ MISTAKES = {
     "a file": (["there.html"], "'there.html' is not the folder of a run or a study: it is a file"),
     "exists": (["study", "-o", "there.html"], "'there.html' exists already; --force"),
     "ending": (["study", "-o", "page.pdf"], "'page.pdf' should end in .html"),
-    "no such folder": (["study", "-o", "none/page.html"], "'none' is not a folder"),
+    "no such folder": (["study", "-o", "none/page.html"], "There is no folder 'none' for"),
     "a folder": (["study", "-o", "dir.html", "--force"], "'dir.html' is a folder"),
     "points of a run": (["run", "--points", "1"], "--points belongs to a study"),
     "no numbers": (["study", "--points", "a"], "--points 'a' should be numbers"),

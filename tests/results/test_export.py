@@ -61,7 +61,7 @@ def test_each_component_has_its_unit(known_run):
     [
         ("poket_force", "no variable 'poket_force': the nearest known one is 'pocket_force'"),
         ("contact_angle", "it is recorded of ball bearings alone"),
-        ("roller_tilt", "it is called 'element_tilt' now"),
+        ("roller_tilt", "the nearest known one is 'element_tilt'"),
     ],
 )
 def test_a_wrong_variable_gets_a_hint(known_run, tmp_path, name, words):

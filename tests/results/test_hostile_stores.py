@@ -86,7 +86,7 @@ def sealed(run: Path) -> None:
     """Write the checksums anew, as one would who means harm."""
     commit = json.loads((run / "_run/commit.json").read_text())
     commit.pop("checksum")
-    commit["metadata"] = metadata_checksum(run, read_layout(run, 6))
+    commit["metadata"] = metadata_checksum(run, read_layout(run))
     commit["checksum"] = _own_checksum(commit)
     (run / "_run/commit.json").write_text(json.dumps(commit))
 

@@ -153,28 +153,6 @@ def test_a_stored_run_goes_to_netcdf_with_its_labels(tmp_path, source, engine):
         assert places == ["inner race", "rib"]
 
 
-def test_a_run_of_format_5_is_read(tmp_path):
-    path = tmp_path / "r.zarr"
-    store = make(path)
-    store.write_block(0, *block(store, 0))
-    for file in (path / "zarr.json", path / "_run/commit.json"):
-        stored = json.loads(file.read_text())
-        if "attributes" in stored:
-            attributes = stored["attributes"]
-            del attributes["coordinates"]
-            attributes |= {k: json.loads(attributes[k]) for k in ("layout", "run")}
-        else:
-            stored["format"] = 5
-        file.write_text(json.dumps(stored))
-    for name in ("axis", "axis2", "crossbeam_face", "pocket", "slice", "pocket_azimuth"):
-        shutil.rmtree(path / name)
-    again = RunStore.open(path)
-    check(again.dataset(), BLOCK)
-    assert again.dataset()["crossbeam_face"].values.tolist() == ["front", "rear"]
-    again.write_block(1, *block(again, 1), {"i": 1})
-    check(RunStore.open(path).dataset(), 2 * BLOCK)
-
-
 def test_wrong_blocks_are_refused(tmp_path):
     store = make(None)
     main, fine = block(store, 0)
@@ -467,8 +445,6 @@ def test_registry_is_complete():
         assert papers_plot in text
     with pytest.raises(InputError, match="'cage_position'"):
         variable("cage_positon")
-    with pytest.raises(InputError, match="'ball_omega'; it is called 'element_omega' now"):
-        variable("ball_omega")
 
 
 def test_a_variable_from_elsewhere(monkeypatch):

@@ -20,6 +20,7 @@ from flexcage.stages import keep_at_hand
 from flexcage.study import run, work
 from flexcage.study.axes import Grid, Points
 from flexcage.study.folder import Folder
+from flexcage.study.origin import Origin
 from flexcage.study.outputs import check_outputs, parse_reduction
 from flexcage.study.plan import make_plan
 from flexcage.study.results import StudyResults, mean_and_half_width
@@ -251,7 +252,8 @@ def test_what_the_machine_lacked_is_tried_again(folder, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("change", "words"), [({"version": "0.0.1"}, "0.0.1"), ({"hash": "f" * 16}, "differs there")]
+    ("change", "words"),
+    [({"origin": Origin("0.0.1", "0" * 16)}, "0.0.1"), ({"hash": "f" * 16}, "differs there")],
 )
 def test_a_worker_that_would_compute_something_else_refuses(folder, change, words):
     (order,) = orders(folder, short_study(), **change)
