@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 
-import conftest
 import crown_cage
 import numpy as np
 import pytest
@@ -23,6 +22,7 @@ from flexcage.mesh.options import MeshOptions
 from flexcage.modes.interface import normalised
 
 MM = 1e-3
+N1013 = load_preset("N1013").cage
 MACHINED = BallCage(
     bore=20 * MM, outside_diameter=26 * MM, width=12 * MM, pocket_diameter=6 * MM
 )  # fmt: skip
@@ -46,7 +46,7 @@ class Family:
 
 
 FAMILIES = {
-    "window": Family(conftest.CAGE, 22, 82.5 * MM),
+    "window": Family(N1013, 22, 82.5 * MM),
     "machined": Family(MACHINED, 8, 23 * MM),
     "spherical": Family(replace(MACHINED, pocket_shape="spherical"), 8, 23 * MM),
     "crown": Family(crown_cage.CAGE, crown_cage.Z, crown_cage.PITCH),
@@ -203,9 +203,9 @@ def test_a_station_without_area_is_refused(n1013):
     mesh = n1013(fineness="coarse")
     x = mesh.points[mesh.groups["pocket3_front"], 0].mean(axis=1)
     half = regrouped(mesh, lambda g: g.update(pocket3_front=g["pocket3_front"][x > 1 * MM]))
-    model = assemble(half, conftest.CAGE.material, order=1)
+    model = assemble(half, N1013.material, order=1)
     with pytest.raises(InputError, match="'pocket3_front' at its contact station 1 of 7"):
-        station_weights(model, face_stations(conftest.CAGE, 7), 22)
+        station_weights(model, face_stations(N1013, 7), 22)
 
 
 def test_stations_with_area_are_means():
