@@ -60,7 +60,8 @@ class Foresight:
         self.pace(time)
 
     def pace(self, time: float) -> None:
-        """Say once how long the whole will take, if that is long; the first call begins."""
+        """Say once how long the whole will take, if that is long. The first call begins, after some
+        steps: kernels were loaded before."""
         if self._begun is None:
             self._begun = clocks.perf_counter(), time
             return

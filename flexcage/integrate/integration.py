@@ -187,7 +187,6 @@ class Integration:
         duration = self.store.layout.n_time / self.output.rate
         with (progress or Silent)(duration, "solving") as bar:
             bar.begin_at(self.time)
-            self._foresight.look(self.effort.counts["steps"], self.time)
             while not self.store.complete:
                 before = self.store.n_time
                 self._block(self.store.blocks)

@@ -122,3 +122,16 @@ def test_a_run_that_becomes_slow_later_says_so(monkeypatch, caplog):
             now[0] += 20.0
             ahead.pace(0.01 + 1e-5 * step)
     assert len(caplog.messages) == 1 and "6 min" in caplog.messages[0]
+
+
+def test_loading_of_kernels_is_no_pace(monkeypatch):
+    """The clock begins behind the first steps, which load them."""
+    looks = []
+
+    class Watched(Foresight):
+        def pace(self, time):
+            looks.append(time)
+
+    monkeypatch.setattr(integration, "Foresight", Watched)
+    simulate(n1013({"cage.model": "rigid", "solver.duration": "1 ms"}), stress=False)
+    assert looks[0] > 0.0 and looks[-1] == pytest.approx(1e-3, rel=0.1)
