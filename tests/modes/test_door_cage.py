@@ -42,6 +42,18 @@ def test_what_flexcage_writes_comes_back_to_the_bit(solver, basis, tmp_path, end
     assert back.fit.stiffness == pytest.approx(1.0, abs=1e-6)
 
 
+def test_rounding_in_what_flexcage_writes_is_not_refused(solver, basis, tmp_path):
+    """A residual stiffness with an eigenvalue of -2e-9 of the largest, as coarse meshes have it."""
+    stiffness = basis.residual.stiffness
+    values, vectors = np.linalg.eigh(stiffness)
+    lacking = (values[0] + 2e-9 * values[-1]) * np.outer(vectors[:, 0], vectors[:, 0])
+    rounded = dataclasses.replace(basis.residual, stiffness=stiffness - lacking)
+    worse = dataclasses.replace(basis, residual=rounded)
+    assert np.linalg.eigvalsh(rounded.stiffness)[0] < -1e-9 * values[-1]
+    back = taken(read_body(write_body(body_of(worse, solver.model), tmp_path / "cage.npz")), solver)
+    assert np.abs(back.residual.stiffness - rounded.stiffness).max() < 5e-9 * values[-1]
+
+
 @pytest.fixture(scope="module")
 def craig_bampton(solver):
     spec = ModesSpec(kind="craig_bampton")

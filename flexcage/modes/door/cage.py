@@ -31,6 +31,7 @@ from flexcage.modes.ritz import eigen_basis, residual_flexibility, residual_vect
 from flexcage.modes.spec import ModesSpec
 from flexcage.modes.table import table_loads
 
+_NEGLIGIBLE = 1e-11  # of the largest eigenvalue
 _WELL = 1e-8  # least over largest eigenvalue of a pocket's residual flexibility that is inverted
 # Higher modes become residual vectors if they are half as many as these, and if the coupling
 # between pockets, which is cut, is about that of flexcage's own without its crossbeams' modes: 0.13
@@ -240,7 +241,7 @@ def body_of(basis: ModeBasis, model: FEModel) -> ReducedBody:
         mass[:n, :n] = basis.mass
         stiffness = np.zeros((n + more, n + more))
         stiffness[:n, :n] = basis.stiffness
-        stiffness[n:, n:] = basis.residual.stiffness
+        stiffness[n:, n:] = _definite(basis.residual.stiffness)
         kind = (*kind, *[RESIDUAL] * more)
     return ReducedBody(
         stiffness=stiffness,
@@ -251,6 +252,17 @@ def body_of(basis: ModeBasis, model: FEModel) -> ReducedBody:
         kind=kind,
         cells=model.cells,
     )
+
+
+def _definite(stiffness: np.ndarray) -> np.ndarray:
+    """A symmetric matrix whose negative eigenvalues, which are rounding, are positive: combinations
+    of residual vectors that answer loads of a rigid motion have next to no stiffness, of either
+    sign. One that has no such eigenvalue stays to the bit."""
+    values, vectors = np.linalg.eigh(stiffness)
+    if values[0] > -_NEGLIGIBLE * values[-1]:
+        return stiffness
+    below = vectors * np.minimum(values, 0.0) @ vectors.T
+    return stiffness - (below + below.T)
 
 
 def full_body_of(model: FEModel) -> ReducedBody:
