@@ -83,9 +83,8 @@ def _simulated(
     integration = Integration(
         bearing, recording_of(case.bearing), start, store, solver=case.solver, output=case.output
     )
-    from_time = integration.time
     stages("solve", integration.march, progress)
-    note_pace(case, stages["solve"], integration.time - from_time)
+    note_pace(case, *integration.pace)
     return run.finish(integration.effort, stress=stress)
 
 

@@ -59,13 +59,19 @@ class Foresight:
             self.after(steps, time, (time - since) / (steps - before))
         self.pace(time)
 
+    def spent(self, time: float) -> tuple[float, float]:
+        """Seconds that it took, and bearing time [s], from the first look to ``time``."""
+        if self._begun is None:
+            return 0.0, 0.0
+        return clocks.perf_counter() - self._begun[0], time - self._begun[1]
+
     def pace(self, time: float) -> None:
         """Say once how long the whole will take, if that is long. The first call begins, after some
         steps: kernels were loaded before."""
         if self._begun is None:
             self._begun = clocks.perf_counter(), time
             return
-        spent, done = clocks.perf_counter() - self._begun[0], time - self._begun[1]
+        spent, done = self.spent(time)
         shown = spent >= _SHOWS and done >= _SHARE * self.duration
         if self._paced or not (shown or spent >= _LATEST) or done <= 0.0:
             return

@@ -178,6 +178,11 @@ class Integration:
         return Effort({**counts, "repeated_blocks": self.repeated}, self.bound)
 
     @property
+    def pace(self) -> tuple[float, float]:
+        """Seconds, and the bearing time [s] that they took, without the loading of kernels."""
+        return self._foresight.spent(self.time)
+
+    @property
     def time(self) -> float:
         """Bearing time reached [s]."""
         return float(self.state.real[T])
