@@ -63,7 +63,7 @@ _REMEMBERED = (
     "pocket_force_before",
 )  # of Events by checkpoints
 LOG_ROWS = EVERY  # steps that are logged at a time, at most
-_FIRST_ROWS, _BETWEEN = 16, 1.0  # at first; more of them where they take less than so many s
+_FIRST_ROWS, _BETWEEN = 512, 1.0  # at first; more of them where they take less than so many s
 
 
 class _Attempt(NamedTuple):
@@ -274,7 +274,7 @@ class Integration:
                     logs.append(log)
                     self._foresight.look(self.effort.counts["steps"], self.time)
                     if perf_counter() - begin < _BETWEEN:
-                        self._rows = min(2 * self._rows, LOG_ROWS)
+                        self._rows = min(8 * self._rows, LOG_ROWS)
                     log, used = np.zeros((self._rows, len(LOG_COLUMNS))), 0
             if outcome != DONE:
                 break

@@ -107,7 +107,7 @@ def test_a_run_keeps_its_pace_without_the_loading_of_kernels(monkeypatch):
         chosen(self)
 
     monkeypatch.setattr(Integration, "_choose", loads)
-    case = CASE.replace("solver.duration", "0.4 ms")
+    case = CASE.replace("solver.duration", "3 ms")  # three blocks
     run = simulate(case)
     assert run.stages["solve"] > 2.0 > expected_seconds(case) > 0.0
 
