@@ -13,6 +13,7 @@ from pathlib import Path
 
 from flexcage.case.presets import register_preset
 from flexcage.core import users_files
+from flexcage.core.binding import path_of
 from flexcage.core.errors import FlexcageError, InputError
 from flexcage.core.missing import no_file
 
@@ -26,7 +27,7 @@ def sources() -> tuple[str, ...]:
 
 def forget(source: str | Path) -> None:
     """Take a file off the list that processes of a study load; what it has added here stays."""
-    text = str(Path(source).expanduser().resolve())
+    text = str(path_of(source, "use").resolve())
     if text in _loaded:
         _loaded.remove(text)
         users_files.forget([Path(text)])
@@ -47,7 +48,7 @@ def load_extension(source: str | Path) -> None:
     text = str(source)
     is_file = text.endswith((".py", ".toml")) or isinstance(source, Path)
     if is_file:
-        path = Path(source).expanduser().resolve()
+        path = path_of(source, "use").resolve()
         text = str(path)
         if not path.is_file():
             what = no_file("file", Path(source), (path.suffix,))

@@ -22,13 +22,18 @@ def read_case(source: str | Path | Mapping[str, Any]) -> tuple[dict[str, Any], P
     path = path_of(source, "case")
     table = read_toml(_text(path), str(path), where="case")
     if "case" in table and "bearing" not in table:
-        what, way = ("map", "map") if "unknowns" in table else ("study", "run")
+        what, command = study_or_map(table)
         raise InputError(
-            f"'{path}' is a {what}, not a case; take 'flexcage study {way} {path}'.",
+            f"'{path}' is a {what}, not a case; take '{command} {path}'.",
             where="case",
             value=str(path),
         )
     return table, path.resolve().parent
+
+
+def study_or_map(table: Mapping[str, Any]) -> tuple[str, str]:
+    """Which of both the tables of a file that is no case are, and the command that computes it."""
+    return ("map", "flexcage study map") if "unknowns" in table else ("study", "flexcage study run")
 
 
 def _text(path: Path) -> str:

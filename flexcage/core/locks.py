@@ -65,34 +65,36 @@ def abandon() -> None:
 
 def is_held(folder: Path) -> bool:
     """Does another process, or another thread, write to ``folder``?"""
-    import filelock
-
     path = folder / LOCK
     if folder.resolve() in _mine.get() or path.is_symlink() or not path.is_file():
         return False
-    lock = filelock.FileLock(path)
     try:
-        lock.acquire(timeout=0)
-    except (filelock.Timeout, OSError):
+        return _is_taken(path)
+    except OSError:
         return True
-    lock.release()
-    return False
 
 
 def check_free(folder: Path) -> None:
     """InputError if another process writes to ``folder``, or to one inside of it."""
-    import filelock
-
     for path in folder.rglob(LOCK):
         if path.parent.resolve() in _mine.get():
             continue
         check_own(path)
-        lock = filelock.FileLock(path)
-        try:
-            lock.acquire(timeout=0)
-        except filelock.Timeout:
-            raise _busy(path, "a run or a study") from None
-        lock.release()
+        if _is_taken(path):
+            raise _busy(path, "a run or a study")
+
+
+def _is_taken(path: Path) -> bool:
+    """Does another hold this lock file?"""
+    import filelock
+
+    lock = filelock.FileLock(path)
+    try:
+        lock.acquire(timeout=0)
+    except filelock.Timeout:
+        return True
+    lock.release()
+    return False
 
 
 def _busy(path: Path, what: str) -> InputError:

@@ -59,7 +59,7 @@ class Balance:
         first, last = self._kept, self._enter(stored, work, self._kept)
         run = Ledger(*(column[:last] for column in self._book))
         own = Ledger(*(column[max(first - 1, 0) : last] for column in self._book))
-        moved = float(run.elastic.max() + np.abs(run.drive[-1] - run.drive[0]).sum())
+        moved = float(run.elastic.max()) + run.driven
         of_run = (s / b for s, b in zip(shares(run, ROUNDING * moved), BOUNDS, strict=True))
         of_own, touched = _own_shares(own)
         over = any(r > TAKEN and o > TAKEN for r, o in zip(of_run, of_own, strict=True))
@@ -73,11 +73,8 @@ class Balance:
 def _own_shares(own: Ledger) -> tuple[tuple[float, float], bool]:
     """A block's own imbalance over the bounds that the drive's work and the cage's losses in it
     give, and whether the cage lost enough to be judged by that."""
-    gap = float(np.abs(own.gap - own.gap[0]).max())
-    drive = float(np.abs(own.drive[-1] - own.drive[0]).sum())
-    lost = float(own.spent[0] - own.spent[-1])
     of_drive, of_cage = (
-        gap / (bound * work) if work > 0.0 else inf
-        for bound, work in zip(BOUNDS, (drive, lost), strict=True)
+        own.worst / (bound * work) if work > 0.0 else inf
+        for bound, work in zip(BOUNDS, (own.driven, own.lost), strict=True)
     )
-    return (of_drive, of_cage), lost > OF_DRIVE * drive
+    return (of_drive, of_cage), own.lost > OF_DRIVE * own.driven

@@ -107,7 +107,7 @@ class Integration:
             raise _of_another(f"it holds no '{lacking[0]}'", lacking[0])
         self._computed = computed_in(store)
         self._balance = Balance(store)
-        self.tightened, self.repeated = 1.0, 0  # of the tolerance; blocks done again
+        self.level, self.repeated = 0, 0  # of the tolerance, as ``tightened``; blocks done again
         self.bound = np.inf  # [s] least stability bound of explicit steps so far
         self._take("bdf" if solver.method == "auto" else solver.method, 0.0, start.y, start.yd)
         self._filter = np.zeros((2, 2, 2))
@@ -178,6 +178,11 @@ class Integration:
         return Effort({**counts, "repeated_blocks": self.repeated}, self.bound)
 
     @property
+    def tightened(self) -> float:
+        """The tolerance of the steps over the case's."""
+        return TIGHTER**self.level
+
+    @property
     def pace(self) -> tuple[float, float]:
         """Seconds, and the bearing time [s] that they took, without the loading of kernels."""
         return self._foresight.spent(self.time)
@@ -201,14 +206,13 @@ class Integration:
 
     def _block(self, index: int) -> None:
         """Integrate and store a block; again with a tighter tolerance where energy leaks."""
-        begun, given = self._checkpoint(), self.tightened
+        begun = self._checkpoint()
         found = self._attempt(index)
-        while found.weighed.over and self.tightened > TIGHTER**AGAIN * 1.5:
-            found = self._again(index, begun, self.tightened * TIGHTER)
+        while found.weighed.over and self.level < AGAIN:
+            found = self._again(index, begun, self.level + 1)
             if not found.whole:  # steps became too short, say: as it was
-                found = self._again(index, begun, given)
+                found = self._again(index, begun, self.level - 1)
                 break
-            given = self.tightened
         self._keep(index, found)
         if found.deep:
             first = found.times[self.output.vibration_ratio * (found.done + 1) - 1]
@@ -219,13 +223,13 @@ class Integration:
         if not found.whole:
             raise RunFailed(self._stopped(found.outcome))
 
-    def _again(self, index: int, begun: dict[str, np.ndarray], tightened: float) -> _Attempt:
+    def _again(self, index: int, begun: dict[str, np.ndarray], level: int) -> _Attempt:
         """A block from its start with another tolerance; what this costs is counted."""
         spent, repeated = self.state.count.copy(), self.repeated
-        self._restore({**begun, "tightened": np.array(tightened)})
+        self._restore({**begun, "level": np.array(level)})
         self.state.count[: len(COUNTS)] = spent[: len(COUNTS)]
         self.repeated = repeated + 1
-        log.debug("block %d again with %g of the tolerance", index, tightened)
+        log.debug("block %d again with %g of the tolerance", index, self.tightened)
         return self._attempt(index)
 
     def _attempt(self, index: int) -> _Attempt:
@@ -287,8 +291,8 @@ class Integration:
         last = self.output.vibration_ratio * found.done - 1
         if found.done:
             fine = self._fine(found.yds[: last + 1], last + 1)
-            if found.weighed.spare and self.tightened < 1.0:
-                self._restore(self._checkpoint(min(1.0, self.tightened / TIGHTER)))
+            if found.weighed.spare and self.level:
+                self._restore({**self._checkpoint(), "level": np.array(self.level - 1)})
             self._balance.keep(found.done)
             steps = dict(zip(LOG_COLUMNS, found.steps.T, strict=True))
             self.store.write_block(
@@ -360,22 +364,22 @@ class Integration:
         kept = {f"events_{k}": getattr(events, k) for k in _REMEMBERED}
         return {**state, **memory, **kept, "filter": self._filter}
 
-    def _checkpoint(self, tightened: float | None = None) -> dict[str, np.ndarray]:
+    def _checkpoint(self) -> dict[str, np.ndarray]:
         kept = {k: v.copy() for k, v in self._parts().items()}
         return {
             **kept,
             "integrator": np.array(self.integrator.name),
             "bound": np.array(self.bound),
-            "tightened": np.array(tightened or self.tightened),
+            "level": np.array(self.level),
             "repeated": np.array(self.repeated),
         }
 
     def _restore(self, saved: dict[str, np.ndarray]) -> None:
-        lacking = {"integrator", "bound", "tightened", "repeated"} - set(saved)
+        lacking = {"integrator", "bound", "level", "repeated"} - set(saved)
         if lacking:
             name = min(lacking)
             raise _of_another(f"its checkpoint holds no '{name}'", name)
-        self.tightened, self.repeated = float(saved["tightened"]), int(saved["repeated"])
+        self.level, self.repeated = int(saved["level"]), int(saved["repeated"])
         y, yd = self.integrator.last(self.state)
         self._take(str(saved["integrator"]), 0.0, y, yd)
         self.bound = float(saved["bound"])

@@ -100,6 +100,21 @@ class Ledger(NamedTuple):
     spent: np.ndarray  # (n,) work of the cage's losses, negative
     elastic: np.ndarray  # (n,) energy held other than kinetic
 
+    @property
+    def driven(self) -> float:
+        """Work of the drive and of constraints over the whole, each counted positive."""
+        return float(np.abs(self.drive[-1] - self.drive[0]).sum())
+
+    @property
+    def lost(self) -> float:
+        """What the cage dissipates over the whole."""
+        return float(self.spent[0] - self.spent[-1])
+
+    @property
+    def worst(self) -> float:
+        """Largest imbalance since the first sample."""
+        return float(np.abs(self.gap - self.gap[0]).max())
+
 
 def ledger(
     stored: np.ndarray, work: np.ndarray, kinds: Sequence[str], channels: Sequence[str]
@@ -120,12 +135,9 @@ def ledger(
 def shares(book: Ledger, least: float) -> tuple[float, float]:
     """Worst imbalance since the first sample over the drive's work, and over the cage's losses; as
     in :class:`EnergyAudit`. Work of ``least`` [J] or less is none."""
-    gap = book.gap - book.gap[0]
-    worst, floor = float(np.abs(gap).max()), OF_ELASTIC * float(book.elastic.max())
-    drive = float(np.abs(book.drive[-1] - book.drive[0]).sum())
-    lost = float(book.spent[0] - book.spent[-1])
-    from_cage = _since(gap, book.spent, lost)
-    drive, lost = (work if abs(work) > least else 0.0 for work in (drive, lost))
+    worst, floor = book.worst, OF_ELASTIC * float(book.elastic.max())
+    from_cage = _since(book)
+    drive, lost = (work if abs(work) > least else 0.0 for work in (book.driven, book.lost))
     untouched = OF_DRIVE * drive if 0.0 < lost < OF_DRIVE * drive else 0.0
     return (
         _share(worst, drive, OF_DRIVE, floor) if drive or lost or worst <= floor else inf,
@@ -158,11 +170,11 @@ def energy_audit(ds: xarray.Dataset) -> EnergyAudit:
     )
 
 
-def _since(gap: np.ndarray, spent: np.ndarray, lost: float) -> float:
+def _since(book: Ledger) -> float:
     """Largest imbalance [J] that arises once the cage has dissipated ``BEGUN`` of what it does."""
-    before = int(np.argmax(spent[0] - spent > BEGUN * lost)) - 1 if lost > 0.0 else 0
-    gap = gap[max(before, 0) :]
-    return float(np.abs(gap - gap[0]).max())
+    begun = book.spent[0] - book.spent > BEGUN * book.lost
+    before = int(np.argmax(begun)) - 1 if book.lost > 0.0 else 0
+    return Ledger(*(column[max(before, 0) :] for column in book)).worst
 
 
 def _share(imbalance: float, work: float, bound: float, floor: float) -> float:

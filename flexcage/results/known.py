@@ -305,7 +305,7 @@ def _solver() -> Iterator[KnownFigure]:
         ("failed_error_tests", "Failed error tests", "", "steps repeated for their error", EFFORT),
         ("failed_newton", "Failed Newton iterations", "", "", EFFORT, RARE),
         ("repeated_blocks", "Blocks done again", "",
-         "with a tenth of the tolerance, as their energy did not balance", EFFORT, RARE),
+         "with a tenth of the tolerance or less, as their energy did not balance", EFFORT, RARE),
         ("stable_step", "Stability bound of explicit steps", "us",
          "least over the run, by the spectral radius"),
     )

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import logging
 from contextlib import suppress
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,7 @@ from flexcage.core.writing import replace
 from flexcage.integrate.foresight import LONG
 from flexcage.integrate.recorded import new_store
 from flexcage.results import room
+from flexcage.results.layout import Layout
 from flexcage.stages import bearing_to_compile
 
 log = logging.getLogger(__name__)
@@ -34,32 +36,40 @@ _WITHIN = 0.9  # of the disk's room, that a remedy fills
 
 
 class Cost:
-    """Disk [bytes] and time [s] of all cases that were counted."""
+    """Disk [bytes] and time [s] of all cases that were counted; ``keeps``: are their runs kept?"""
 
-    def __init__(self) -> None:
+    def __init__(self, *, keeps: bool = True) -> None:
+        self.keeps = keeps
         self.disk, self.seconds, self.cases = 0.0, 0.0, 0
         self.unknown = 0  # cases whose pace is not known
         self._first: Case | None = None
 
     def counted(self, case: Case) -> Case:
         """The case, which is counted."""
-        flexible, output = case.cage_model == "flexible", case.output
         if self._first is None:
             self._first = case
-            bearing = bearing_to_compile(case)
-            store = new_store(
-                None, bearing, recording_of(case.bearing), duration=0.0, output=output, attrs={}
-            )
-            self._layout = store.layout
-        rate = room.expected_rate(
-            self._layout, output.rate, output.vibration_rate, flexible=flexible
-        )
-        self.disk += room.expected_size(rate, case.solver.duration, flexible=flexible)
+        if self.keeps:
+            self.disk += self._bytes_of(case)
         seconds = expected_seconds(case)
         self.unknown += seconds is None
         self.seconds += seconds or 0.0
         self.cases += 1
         return case
+
+    def _bytes_of(self, case: Case) -> float:
+        flexible, output = case.cage_model == "flexible", case.output
+        rate = room.expected_rate(
+            self._layout, output.rate, output.vibration_rate, flexible=flexible
+        )
+        return room.expected_size(rate, case.solver.duration, flexible=flexible)
+
+    @cached_property
+    def _layout(self) -> Layout:
+        """What a run of the first case records; the others' differ little."""
+        assert self._first is not None
+        bearing, recording = bearing_to_compile(self._first), recording_of(self._first.bearing)
+        output = self._first.output
+        return new_store(None, bearing, recording, duration=0.0, output=output, attrs={}).layout
 
     def tell(
         self,
@@ -74,7 +84,7 @@ class Cost:
         ``folder`` receives the runs, None: they are not kept. ``each`` [s] is what a case takes,
         if cases of the study have shown it. ``quiet``: refuse only.
         """
-        if folder is not None and self.cases:
+        if folder is not None and self.keeps and self.cases:
             room.announce(folder, self.disk, *self._words(folder), quiet=quiet)
         if each is not None:
             seconds = each * self.cases / workers
@@ -117,7 +127,7 @@ class Cost:
 def told_cost(case: Case, folder: Path | None, *, quiet: bool) -> None:
     """Say what one run will take; EnvironmentLacks where the disk has no room. ``quiet``: only
     that."""
-    cost = Cost()
+    cost = Cost(keeps=folder is not None)
     cost.counted(case)
     cost.tell(folder, quiet=quiet)
 

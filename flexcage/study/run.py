@@ -16,7 +16,7 @@ from flexcage.core.stopping import check, unwinding
 from flexcage.run.cost import Cost
 from flexcage.run.foreseen import tell
 from flexcage.study.cluster import connect, default_workers, require_packages
-from flexcage.study.folder import Failure, Folder
+from flexcage.study.folder import CaseRow, Failure, Folder
 from flexcage.study.origin import check_origins
 from flexcage.study.outputs import beyond_summary, lacking, needs_stress
 from flexcage.study.plan import Plan, Planned, make_plan
@@ -79,14 +79,13 @@ def run_study(
 
 def _tell_before(plan: Plan, folder: Folder, todo: set[str], where: tuple[Any, int | None]) -> None:
     """Log what is foreseen of the cases to compute, and what disk and time they will take."""
-    cost = Cost()
+    cost = Cost(keeps=plan.study.keep == "runs")
     cases = (cost.counted(plan.case(planned)) for planned in plan.cases if planned.hash in todo)
     tell(cases, stress=needs_stress(plan.study.outputs))
     scheduler, workers = where
     if scheduler is None:
         crew = min(workers or default_workers(), len(todo))
-        kept = folder.path if plan.study.keep == "runs" else None
-        cost.tell(kept, workers=crew, each=_seconds_each(plan, folder))
+        cost.tell(folder.path, workers=crew, each=_seconds_each(plan, folder))
 
 
 def _seconds_each(plan: Plan, folder: Folder) -> float | None:
@@ -131,7 +130,7 @@ def check_physics(plan: Plan, folder: Folder, *, allowed: bool) -> None:
     rows = {planned.hash: folder.row(planned.hash) for planned in plan.cases}
     done = [row.origin for row in rows.values() if row is not None]
     beyond = beyond_summary(plan.study.outputs)
-    new = sum(row is None or bool(lacking(beyond, row.figures)) for row in rows.values())
+    new = sum(not _has(row, beyond) for row in rows.values())
     if mixed := check_origins(done, new=new, folder=folder.path, allowed=allowed):
         log.warning(mixed)
 
@@ -145,10 +144,14 @@ def _lacking(plan: Plan, folder: Folder, *, retry: bool) -> set[str]:
             folder.forget_failure(planned.hash)
         if failure is not None and failure.final and not retry:
             continue
-        row = folder.row(planned.hash)
-        if row is None or lacking(beyond, row.figures):
+        if not _has(folder.row(planned.hash), beyond):
             todo.add(planned.hash)
     return todo
+
+
+def _has(row: CaseRow | None, beyond: tuple[str, ...]) -> bool:
+    """Is a case done, with the outputs that no summary holds?"""
+    return row is not None and not lacking(beyond, row.figures)
 
 
 class _Desk:

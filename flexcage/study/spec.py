@@ -13,6 +13,7 @@ from flexcage.case import Case, load_case, load_extension
 from flexcage.case.extensions import not_loaded, sources
 from flexcage.case.files import file_paths
 from flexcage.case.presets import NAMED
+from flexcage.case.read import study_or_map
 from flexcage.case.toml import write_toml
 from flexcage.core.binding import Binder, check_spec, path_of, to_table, unit_at, wrong_type
 from flexcage.core.errors import InputError
@@ -159,10 +160,10 @@ def check_kind(table: Mapping[str, Any], path: Path, wanted: str) -> None:
             f'{wanted} as case = "my_case.toml".',
             where="case",
         )
-    found, way = ("map", "map") if "unknowns" in table else ("study", "run")
+    found, command = study_or_map(table)
     if found != wanted and ("axes" in table) != ("unknowns" in table):
         raise InputError(
-            f"'{path}' is a {found}, not a {wanted}; take 'flexcage study {way} {path}'.",
+            f"'{path}' is a {found}, not a {wanted}; take '{command} {path}'.",
             where="study",
         )
 

@@ -10,7 +10,6 @@ from flexcage.mesh.files.raw import Refused, lines_of
 
 # Keywords of the model that neither make nor move nodes, elements or their sets. Any other one is
 # refused by name; what stands after *STEP is history.
-_LARGEST = 2**62  # number of a node or an element
 _HARMLESS = """
 HEADING; PREPRINT; RESTART; FILE FORMAT; TIME POINTS; FILTER; AMPLITUDE; PHYSICAL CONSTANTS;
 BOUNDARY; BASE MOTION; INITIAL CONDITIONS; EQUATION; MPC; USER MPC; COUPLING; KINEMATIC;
@@ -40,6 +39,7 @@ GAP HEAT GENERATION; SURFACE PROPERTY; SURFACE PROPERTY ASSIGNMENT; SURFACE SMOO
 MATRIX INPUT; MATRIX ASSEMBLE; USER ELEMENT; MATRIX; UEL PROPERTY; SUBSTRUCTURE PROPERTY;
 VALUES AT INFINITY; DESIGN VARIABLES; END PART; END ASSEMBLY
 """
+_LARGEST = 2**62  # number of a node or an element
 HARMLESS = frozenset(" ".join(name.split()) for name in _HARMLESS.split(";"))
 #: How its own program writes out a mesh that a deck makes by rules.
 WRITTEN_OUT = (

@@ -153,10 +153,9 @@ def _check_from_one(labels: np.ndarray, numbers: np.ndarray, path: Path, where: 
     """Refuse labels that count nodes or components from 0, as arrays of Python do."""
     of_nodes = np.isin(labels[:, 0], numbers)
     zero = of_nodes & (labels[:, 1] == 0)
-    both = np.isin(labels[:, 0], labels[zero, 0]) & (
-        labels[:, 1] > 0
-    )  # grids, no modal coordinates
-    low = (labels[:, 0] == 0) & (labels[:, 1] > 0) if not (numbers == 0).any() else both
+    grid = labels[:, 1] > 0  # no modal coordinate
+    both = grid & np.isin(labels[:, 0], labels[zero, 0])
+    low = both if (numbers == 0).any() else grid & (labels[:, 0] == 0)
     for wrong, what in ((both, "components"), (low, "nodes")):
         if wrong.any():
             raise InputError(
