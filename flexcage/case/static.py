@@ -134,11 +134,12 @@ class StaticCase:
         kind: Any = type(self)
         bare = _unchecked(kind)(**_values(self))
         for where, new in with_their_choice(bare, pairs).items():
-            if where == "bearing.preset":
+            if where in ("bearing.preset", "preset"):
                 raise InputError(
-                    "bearing.preset cannot be replaced in a finished case; load it with the "
-                    "other preset instead.",
-                    where=where,
+                    "bearing.preset cannot be replaced in a case that has its values already; "
+                    "write a case for each preset, and of a study one study for each case.",
+                    where="bearing.preset",
+                    value=new,
                 )
             new = bare._prepared(where, new, binder)
             with words_of_text():

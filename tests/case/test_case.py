@@ -304,3 +304,12 @@ def test_a_difference_in_a_list_names_its_entries_alone():
     found = bent.difference(bent.replace("defects", ()))
     assert "defects.0.displacement" in found and "defects" not in found
     assert found["defects.0.crossbeam"][1] is None
+
+
+@pytest.mark.parametrize("path", ["preset", "bearing.preset"])
+def test_a_preset_cannot_be_replaced(case, path):
+    """The name alone would be, and a case say another bearing than it has."""
+    with pytest.raises(InputError, match="write a case for each preset"):
+        case.replace(path, "7010C-PI")
+    with pytest.raises(InputError, match="write a case for each preset"):
+        case.replace(**{path: "N1013"})
