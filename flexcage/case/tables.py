@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import fields
 from typing import Any
 
 from flexcage.case.presets import NAMED, Preset, load_preset
@@ -49,7 +50,7 @@ def _refuse_other_type(preset: Preset, bearing: Any) -> None:
     spec = BEARING_TYPES.get(own) if isinstance(own, str) else None
     if spec is None:
         return  # the preset's, or none that there is
-    if preset.tables["bearing"].keys() - spec.__dataclass_fields__.keys():
+    if preset.tables["bearing"].keys() - {field.name for field in fields(spec)}:
         raise InputError(
             f"bearing.type is '{own}', but the preset {preset.name} is one of type "
             f"'{preset.bearing.type}'; leave out bearing.type, or bearing.preset.",

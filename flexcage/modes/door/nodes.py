@@ -110,15 +110,19 @@ def _abaqus(path: Path, *, where: str) -> Points:
 
 
 def _ansys(path: Path, *, where: str) -> Points:
-    from flexcage.mesh.files.ansys import read_archive
+    from flexcage.mesh.files.ansys import read_archive, refuse_commands
+    from flexcage.mesh.files.nblock import nodes_of, refuse_turned
 
     archive: Any = read_archive(path, where=where)
+    text = text_of(path)
+    try:
+        refuse_commands(text, nodes_alone=True)
+        refuse_turned(archive)
+        numbers, places = nodes_of(archive, text)
+    except Refused as error:
+        raise unreadable(path, error, where=where) from error
     sets = {str(n).lower(): np.asarray(v) for n, v in archive.node_components.items()}
-    return Points(
-        numbers=np.asarray(archive.nnum, np.int64),
-        places=np.asarray(archive.nodes[:, :3], float),
-        sets=sets,
-    )
+    return Points(numbers=numbers, places=places, sets=sets)
 
 
 _READERS: dict[str, Callable[..., Points | None]] = {
