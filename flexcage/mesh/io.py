@@ -35,6 +35,7 @@ from flexcage.mesh.cage_mesh import (
 )
 from flexcage.mesh.files.abaqus import read_inp
 from flexcage.mesh.files.ansys import read_cdb
+from flexcage.mesh.files.frame import check_axis
 from flexcage.mesh.files.msh import read_msh
 from flexcage.mesh.files.others import no_mesh
 from flexcage.mesh.files.raw import RawMesh, Refused, first_alike, group_name
@@ -134,6 +135,7 @@ def read_mesh(path: str | Path, *, pocket_count: int | None = None, unit: str = 
         info["in_one_place"] = open_at
     mesh = CageMesh(points, tets, MappingProxyType(groups), count, MappingProxyType(info))
     _refuse_missing(mesh, unknown, raw.no_surfaces, path)
+    check_axis(mesh, str(path))
     check_mesh(mesh, where=str(path))
     _check_size(mesh, path, unit)
     return _with_sectors(mesh)
