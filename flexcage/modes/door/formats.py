@@ -125,6 +125,7 @@ def _body(contents: Contents, points: Points | None, path: Path, where: str) -> 
     else:
         _check_from_one(labels, points.numbers, path, where)
         dofs = _by_place(labels, points.numbers)
+    _refuse_same(dofs, points.numbers, path, where)
     place = {int(n): i for i, n in enumerate(points.numbers)}
     sets = {name: np.array([place[n] for n in v if n in place]) for name, v in points.sets.items()}
     stiffness, mass = contents.stiffness, contents.mass
@@ -147,6 +148,19 @@ def _body(contents: Contents, points: Points | None, path: Path, where: str) -> 
         numbers=np.asarray(points.numbers),
         source=str(path),
     )
+
+
+def _refuse_same(dofs: np.ndarray, numbers: np.ndarray, path: Path, where: str) -> None:
+    """Refuse two coordinates that are one component of one node."""
+    found, count = np.unique(dofs[dofs[:, 0] != MODAL], axis=0, return_counts=True)
+    if (count > 1).any():
+        node, component = found[np.argmax(count > 1)]
+        raise InputError(
+            f"{path}: {count.max()} of its coordinates are component {component + 1} of node "
+            f"{numbers[node]}; each component of a node is one coordinate.",
+            where=where,
+            value=int(numbers[node]),
+        )
 
 
 def _check_from_one(labels: np.ndarray, numbers: np.ndarray, path: Path, where: str) -> None:
