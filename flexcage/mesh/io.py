@@ -25,6 +25,7 @@ from typing import Any
 
 import numpy as np
 
+from flexcage.core.binding import path_of
 from flexcage.core.errors import FlexcageError, InputError, unwritable
 from flexcage.core.missing import no_file
 from flexcage.core.writing import written
@@ -67,7 +68,7 @@ def write_mesh(mesh: CageMesh, path: str | Path) -> Path:
     """Write a mesh with its groups as .msh or .vtu, in metres; returns the path."""
     import meshio
 
-    path = Path(path)
+    path = path_of(path, "path")
     if path.suffix not in (".msh", ".vtu"):
         raise InputError(f"{path}: a mesh is written as .msh or .vtu", where="path")
     parts = pocket_groups(mesh.groups)
@@ -114,7 +115,7 @@ def is_written_by_us(path: Path) -> bool:
 
 def read_mesh(path: str | Path, *, pocket_count: int | None = None, unit: str = "m") -> CageMesh:
     """Read and check a cage mesh with named groups; lengths in the file are in ``unit`` (m, mm)."""
-    path = Path(path)
+    path = path_of(path, "path")
     raw = _read_raw(path)
     tets = _tetrahedra(raw, path)
     warn_of_curves(raw, path)

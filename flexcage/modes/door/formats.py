@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
+from flexcage.core.binding import path_of
 from flexcage.core.errors import InputError, unwritable
 from flexcage.core.missing import no_file
 from flexcage.core.writing import written
@@ -65,7 +66,7 @@ def read_body(
     ``nodes``: a deck that says where its nodes are, for files that do not (.bdf, .dat, .inp, .cdb).
     ``units`` of both. InputError, which names ``where``, for what is no body.
     """
-    path = Path(path)
+    path = path_of(path, where)
     ending = path.suffix.lower()
     if ending not in FORMATS:
         none = f"is no file of a reduced body that can be read: {', '.join(FORMATS)}"
@@ -90,7 +91,7 @@ def write_body(body: ReducedBody, path: str | Path, **options: Any) -> Path:
 
     ``binary`` False writes an .op4 as text.
     """
-    path = Path(path)
+    path = path_of(path, "path")
     if path.suffix.lower() not in FORMATS:
         raise InputError(
             f"'{path}' should end in {' or '.join(FORMATS)}.", where="out", value=str(path)
