@@ -23,6 +23,9 @@ from flexcage.geometry.cage import Cage
 from flexcage.geometry.film import Film, Oil
 from flexcage.geometry.other_kinds import kind_of, named_kind
 
+if TYPE_CHECKING:
+    from flexcage.geometry.materials import Material
+
 Spec = type  # by another name, for inside the spec ``type`` is a field
 
 #: Specs of bearings by the name that a case gives: those of all families, and users' own.
@@ -109,10 +112,20 @@ class Bearing:
     type: str = type_name("cylindrical_roller")
     designation: str = option("", doc="name in a catalogue")
 
-    if TYPE_CHECKING:
+    if TYPE_CHECKING:  # what every type has as a field, or says from its fields
 
-        def __getattr__(self, name: str) -> Any:  # dimensions of its own type
-            ...
+        @property
+        def bore(self) -> float: ...
+        @property
+        def outside_diameter(self) -> float: ...
+        @property
+        def width(self) -> float: ...
+        @property
+        def pitch_diameter(self) -> float: ...
+        @property
+        def material(self) -> Material: ...
+        @property
+        def outer_ring_mass(self) -> float: ...
 
     @property
     def guides(self) -> Mapping[str, str]:

@@ -40,6 +40,11 @@ class Cage:
     # do rivets of ``rivet_diameter`` between its pockets hold two halves together?
     riveted: ClassVar[bool] = False
 
+    if TYPE_CHECKING:  # of those that are riveted
+
+        @property
+        def rivet_diameter(self) -> float: ...
+
     material: Material = option(MATERIALS["brass"], doc="cage material (a name or its values)")
     bore: float = quantity("mm", doc="inside diameter", above=0.0)
     outside_diameter: float = quantity("mm", doc="outside diameter", above=0.0)
@@ -87,6 +92,11 @@ class Cage:
         return nan
 
     @property
+    def pocket_reach(self) -> float:
+        """How far [m] a pocket reaches to both sides along the axis."""
+        raise NotImplementedError
+
+    @property
     def has_faces(self) -> bool:
         """Have its pockets plane faces, which a basis may have attachment vectors for?"""
         return True
@@ -121,11 +131,6 @@ class Cage:
         """Unbalance [kg m] of half of its body of revolution, taken as solid: more cannot be."""
         wall = pi / 4.0 * (self.outside_diameter**2 - self.bore**2)
         return 0.5 * self.material.density * wall * self.axial_width * self.mean_radius
-
-    if TYPE_CHECKING:
-
-        def __getattr__(self, name: str) -> Any:  # dimensions of its own type
-            ...
 
     def thinnest(self, pitch_diameter: float, pocket_count: int) -> float:
         """Least thickness [m] of wall and webs, for which elements must not be too large."""

@@ -78,11 +78,6 @@ class CageDefect:
 
     type: str = option(doc="kind of defect", choices=DEFECTS, elsewhere=_NO_DEFECTS)
 
-    if TYPE_CHECKING:
-
-        def __getattr__(self, name: str) -> Any:  # values of its own kind
-            ...
-
     @property
     def number(self) -> int:
         """Number of its part."""

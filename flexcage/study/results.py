@@ -27,7 +27,6 @@ from flexcage.study.folder import CaseRow, Folder
 from flexcage.study.origin import Origin, told_apart
 from flexcage.study.outputs import Figure
 from flexcage.study.plan import Plan, Planned
-from flexcage.study.same_values import check_values
 from flexcage.study.spec import Study, value_at
 
 if TYPE_CHECKING:
@@ -45,8 +44,8 @@ class ResultRow:
     """One planned case and what became of it: ``state`` is "done", "failed" or "open", ``seconds``
     of processor time.
 
-    ``warnings`` are those of its run; None where none were looked for. ``origin`` is the flexcage
-    that computed it.
+    ``warnings`` are those of its run, and ``origin`` is the flexcage that computed it; both of a
+    case that is done alone.
     """
 
     planned: Planned
@@ -54,13 +53,13 @@ class ResultRow:
     reason: str
     seconds: float
     figures: Mapping[str, Figure]
-    warnings: tuple[RunWarning, ...] | None = None
-    origin: Origin = Origin()
+    warnings: tuple[RunWarning, ...] = ()
+    origin: Origin | None = None
 
     @property
     def warned(self) -> str:
         """Kinds of warnings that its run has, as a table shows them."""
-        return ", ".join(dict.fromkeys(warning.key for warning in self.warnings or ()))
+        return ", ".join(dict.fromkeys(warning.key for warning in self.warnings))
 
 
 class StudyResults:
@@ -107,15 +106,9 @@ class StudyResults:
 
     @cached_property
     def stored(self) -> dict[str, CaseRow]:
-        """All figures of every finished case, by its hash; InputError if a case was computed with
-        other values than the plan gives it."""
-        found = {}
-        for planned in self.planned:
-            row = self.folder.row(planned.hash)
-            if row is not None:
-                check_values(self.folder, self.about, planned, row)
-                found[planned.hash] = row
-        return found
+        """All figures of every finished case, by its hash."""
+        rows = {planned.hash: self.folder.row(planned.hash) for planned in self.planned}
+        return {name: row for name, row in rows.items() if row is not None}
 
     def count(self, state: str) -> int:
         """How many cases are "done", "failed" or "open"."""
@@ -132,7 +125,7 @@ class StudyResults:
             | {self.titles[name]: _value(row.figures.get(name)) for name in self.titles}
             | {"state": row.state, "reason": row.reason, "warnings": row.warned}
             | {"seconds": row.seconds}
-            | {"version": str(row.origin), "hash": row.planned.hash}
+            | {"version": str(row.origin or ""), "hash": row.planned.hash}
             for row in self.rows
         ])  # fmt: skip
 
@@ -205,7 +198,7 @@ class StudyResults:
         done = [row for row in self.rows if row.state == "done"]
         found: dict[str, list[tuple[ResultRow, RunWarning]]] = {}
         for row in done:
-            for warning in {w.key: w for w in reversed(row.warnings or ())}.values():
+            for warning in {w.key: w for w in reversed(row.warnings)}.values():
                 found.setdefault(warning.key, []).append((row, warning))
         lines = self.cautions()
         for key, cases in found.items():
@@ -213,12 +206,6 @@ class StudyResults:
             place = f"point {first.number}, repetition {first.repetition}"
             where = place if len(cases) == 1 else f"the first is {place}"
             lines.append(f"{len(cases)} of {len(done)} cases ({key}; {where}): {cases[0][1].text}")
-        unknown = sum(row.warnings is None for row in done)
-        if unknown:
-            lines.append(
-                f"Warnings of {unknown} of {len(done)} cases are not known: an earlier flexcage "
-                "computed them."
-            )
         if self.about.repeat.count == _TOO_FEW:
             lines.append(
                 f"Every point has {_TOO_FEW} repetitions, so that an interval is 12.7 times the "
@@ -229,7 +216,7 @@ class StudyResults:
     def cautions(self) -> list[str]:
         """What to know before any of its figures: an edited study.toml, cases of different versions
         of flexcage."""
-        apart = told_apart(row.origin for row in self.rows if row.state == "done")
+        apart = told_apart(row.origin for row in self.rows if row.origin)
         return list(filter(None, [self.about.edited, apart]))
 
     def status(self) -> str:

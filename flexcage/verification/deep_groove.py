@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from flexcage.bearings.ball.bearing import BallBearing
 from flexcage.case import Case
-from flexcage.geometry.bearing import Bearing
 from flexcage.mesh.options import MeshOptions
 from flexcage.system.spec import Load
 
 
-def case_of(bearing: Bearing, *tables: Mapping[str, object]) -> Case:
+def case_of(bearing: BallBearing, *tables: Mapping[str, object]) -> Case:
     """A bearing without weight in a rigid cage with 4 % of play; ``tables`` map dotted paths to
     text, later ones win."""
     ball, pitch = bearing.ball_diameter, bearing.pitch_diameter

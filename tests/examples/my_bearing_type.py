@@ -9,14 +9,13 @@ import numpy as np
 
 from flexcage.bearings import Family
 from flexcage.cages.machined.cage import BallCage
-from flexcage.core.spec import option, quantity
 from flexcage.geometry.bearing import (
     Bearing,
     EquivalentLoad,
     Spec,
     type_name,
 )
-from flexcage.register import bearing_family
+from flexcage.register import bearing_family, option, quantity
 from flexcage.system.statics.elements import ElementLoads, Response
 
 

@@ -24,9 +24,9 @@ from flexcage.case import Case
 from flexcage.case.description import in_words
 from flexcage.core import registry
 from flexcage.core.errors import InputError
-from flexcage.core.spec import option
 from flexcage.core.wings import CAGE_TYPES
 from flexcage.geometry import defect as defects
+from flexcage.register import option
 from flexcage.render.mesh_pictures import mesh_picture
 
 HERE = Path(__file__).parent

@@ -222,7 +222,7 @@ class BallBearing(Bearing):
             clearance=None if given is None else 0.5 * (shoulder - own) * (1.0 if outer else -1.0),
             of=f"cage.{what} and {name}",
             strict=False,
-            facing=end - max(0.5 * cage.pocket_diameter, groove),
+            facing=end - max(cage.pocket_reach, groove),
             end=end,
         )
 
@@ -239,7 +239,7 @@ class BallBearing(Bearing):
             out = side == "outer"
             gap = limit.diameter - cage.outside_diameter if out else cage.bore - limit.diameter
             end, groove = min(cage.axial_reach, 0.5 * self.width), self.race_reach(side)
-            rim = end - max(0.5 * cage.pocket_diameter, groove)
+            rim = end - max(cage.pocket_reach, groove)
             facing = rim if rim > 0.0 else max(end - groove, _EDGE * end)
             stop = RingLand(
                 clearance=0.5 * gap, of=limit.name, strict=False, facing=facing, end=end

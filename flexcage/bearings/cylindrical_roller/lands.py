@@ -25,7 +25,7 @@ def land(b: RollerBearing, cage: Cage) -> RingLand:
     """The land on the ring that guides the cage, or that it may touch. A cage has a land at each
     end, or none: a single rib makes none."""
     ring, outer = cage.land_ring, cage.land_ring == "outer"
-    begin, end = 0.5 * cage.pocket_length, 0.5 * min(cage.width, b.width)
+    begin, end = cage.pocket_reach, 0.5 * min(cage.width, b.width)
     ribs, met = ribs_of(b, ring), limit(b, ring).diameter
     own, size = (
         ("cage.outside_diameter", cage.outside_diameter) if outer else ("cage.bore", cage.bore)

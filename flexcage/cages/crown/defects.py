@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from flexcage.cages.crown.cage import CrownCage
 from flexcage.cages.machined.defects import BallCageDefect, PocketShapes
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import mm, typeset
@@ -123,6 +124,7 @@ class BentClaw(ClawDefect):
 
     def check(self, where: str, cage: Cage, count: int) -> Iterator[Finding]:
         yield from super().check(where, cage, count)
+        assert isinstance(cage, CrownCage)
         most = cage.tip - cage.bar_height
         if not abs(self.deflection) < most:
             yield (
@@ -276,6 +278,7 @@ class WornPocket(CrownDefect):
 
     def check(self, where: str, cage: Cage, count: int) -> Iterator[Finding]:
         yield from super().check(where, cage, count)
+        assert isinstance(cage, CrownCage)
         most = 0.5 * min(cage.claw_thickness, cage.ring_thickness)
         if not 0.0 < self.depth < most:
             yield (

@@ -44,6 +44,10 @@ class BallCage(Cage):
     def pocket_size(self) -> float:
         return self.pocket_diameter
 
+    @property
+    def pocket_reach(self) -> float:
+        return 0.5 * self.pocket_diameter
+
     def check_defects(
         self,
         defects: Sequence[Any],

@@ -53,6 +53,10 @@ class WindowCage(Cage):
     def pocket_size(self) -> float:
         return self.pocket_width
 
+    @property
+    def pocket_reach(self) -> float:
+        return 0.5 * self.pocket_length
+
     def check_defects(
         self,
         defects: Sequence[Any],
