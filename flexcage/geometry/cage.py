@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import nan, pi
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Protocol
 
 from flexcage.core.errors import InputError
 from flexcage.core.spec import GIVEN, option, quantity
@@ -15,7 +15,6 @@ from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.temperature import material_at
 
 if TYPE_CHECKING:
-    from flexcage.geometry.bearing import Bearing
     from flexcage.geometry.riveted_joint import JointShape
 
 Objection = tuple[str, str]  # name of a value, and what is wrong with it
@@ -28,6 +27,32 @@ def cages_of(element: str) -> Parts[type]:
         lambda made: {made.name: made.spec} if element in made.holds else {},
         what="cage type",
     )
+
+
+@dataclass(frozen=True)
+class RingLimit:
+    """A part of a ring beside the cage: its diameter [m], and what it is."""
+
+    diameter: float
+    name: str
+
+
+class Elements(Protocol):
+    """The elements that a cage holds, as their bearing has them (``geometry.bearing``)."""
+
+    element: ClassVar[str]
+
+    @property
+    def element_count(self) -> int: ...
+    @property
+    def element_diameter(self) -> float: ...
+    @property
+    def element_length(self) -> float: ...
+    @property
+    def element_edge(self) -> float: ...
+    @property
+    def pitch_diameter(self) -> float: ...
+    def cage_space(self, cage: Cage) -> tuple[RingLimit | None, RingLimit | None]: ...
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -156,29 +181,6 @@ class Cage:
             raise InputError(f"{where}, {describe(value, 'mm')}, {what}.", where=where, value=value)
         material_at(self.material, self.temperature)
 
-    def no_room(self, bearing: Bearing) -> Iterator[Objection]:
+    def no_room(self, bearing: Elements) -> Iterator[Objection]:
         """What leaves no room in it for a bearing's elements, or for itself between them."""
         return iter(())
-
-    def interference(self, bearing: Bearing, defects: Sequence[Any]) -> Iterator[tuple[str, str]]:
-        """Where, and in a sentence, its defects leave an element less room than any assembly can
-        take."""
-        return iter(())
-
-    def check_defects(
-        self,
-        defects: Sequence[Any],
-        *,
-        pocket_count: int,
-        pitch_diameter: float,
-        element_diameter: float = 0.0,
-    ) -> None:
-        """Raise InputError for defects that a sound cage of these dimensions cannot have, in a
-        bearing whose elements have this pitch circle [m] and diameter [m] (0: any)."""
-        from flexcage.geometry.defect import check_each
-
-        check_each(defects, self, pocket_count)
-
-    def uneven_pockets(self, pocket_count: int, seed: int) -> tuple[Any, ...]:
-        """Defects that make its pockets' spacing uneven, drawn at random; none if it is even."""
-        return ()

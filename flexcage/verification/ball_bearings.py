@@ -4,18 +4,21 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import pi, radians
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from flexcage.bearings import statics_of
-from flexcage.bearings.ball import AngularContactBallBearing, DeepGrooveBallBearing
-from flexcage.geometry.bearing import Bearing
+from flexcage.case.presets import load_preset
+from flexcage.geometry.bearing import BEARING_TYPES, Bearing
 from flexcage.geometry.materials import Material
 from flexcage.system.spec import Load
 from flexcage.system.statics.options import StaticOptions
 from flexcage.system.statics.solution import StaticSolution
 from flexcage.system.statics.solve import solve_bearing
-from flexcage.verification.inside import ball_bearing
+
+if TYPE_CHECKING:
+    from flexcage.bearings.ball import AngularContactBallBearing, DeepGrooveBallBearing
 
 RPM = pi / 30.0
 DEGREES = 180.0 / pi
@@ -23,9 +26,7 @@ DEGREES = 180.0 / pi
 
 def preset(name: str) -> AngularContactBallBearing:
     """Angular contact bearing of a preset."""
-    bearing = ball_bearing(name)
-    assert isinstance(bearing, AngularContactBallBearing)
-    return bearing
+    return cast("AngularContactBallBearing", load_preset(name).bearing)
 
 
 def deep_groove(
@@ -33,7 +34,8 @@ def deep_groove(
 ) -> DeepGrooveBallBearing:
     """The deep groove bearing of a published set of ISO/TS 16281 cases, at a clearance [m]."""
     steel = Material(name="steel", youngs_modulus=210e9, poisson_ratio=0.3, density=7850.0)
-    return DeepGrooveBallBearing(
+    spec: type[DeepGrooveBallBearing] = BEARING_TYPES["deep_groove_ball"]
+    return spec(
         bore=25e-3, outside_diameter=62e-3, width=17e-3, pitch_diameter=43.5e-3,
         ball_diameter=ball, ball_count=count, inner_groove_radius=0.52 * ball,
         outer_groove_radius=0.53 * ball, radial_clearance=clearance, material=steel,

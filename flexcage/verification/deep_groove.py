@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
-from flexcage.bearings.ball.bearing import BallBearing
 from flexcage.case import Case
 from flexcage.mesh.options import MeshOptions
 from flexcage.system.spec import Load
+
+if TYPE_CHECKING:
+    from flexcage.bearings.ball.bearing import BallBearing
 
 
 def case_of(bearing: BallBearing, *tables: Mapping[str, object]) -> Case:

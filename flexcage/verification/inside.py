@@ -1,21 +1,28 @@
-"""Bearings of presets, by their own types."""
+"""Bearings by their own types. The chapter names these for type checkers alone: its other cases run
+where a family is not there."""
 
 from __future__ import annotations
 
-from flexcage.bearings.ball.bearing import BallBearing
-from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
+from typing import TYPE_CHECKING, cast
+
+from flexcage.case import Case
 from flexcage.case.presets import load_preset
+
+if TYPE_CHECKING:
+    from flexcage.bearings.ball.bearing import BallBearing
+    from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
 
 
 def ball_bearing(name: str) -> BallBearing:
     """The ball bearing of a preset."""
-    bearing = load_preset(name).bearing
-    assert isinstance(bearing, BallBearing)
-    return bearing
+    return cast("BallBearing", load_preset(name).bearing)
 
 
 def roller_bearing(name: str) -> RollerBearing:
     """The roller bearing of a preset."""
-    bearing = load_preset(name).bearing
-    assert isinstance(bearing, RollerBearing)
-    return bearing
+    return cast("RollerBearing", load_preset(name).bearing)
+
+
+def rollers_of(case: Case) -> RollerBearing:
+    """The roller bearing of a case."""
+    return cast("RollerBearing", case.bearing)

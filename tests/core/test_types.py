@@ -9,7 +9,7 @@ ROOT = Path(__file__).parents[2]
 SNIPPET = """
 from flexcage.bearings.ball.bearing import BallBearing
 from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
-from flexcage.cages.machined.cage import BallCage
+from flexcage.cages.round_pocket.cage import BallCage
 from flexcage.cages.window.defects import WindowDefect
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage

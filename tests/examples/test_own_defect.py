@@ -19,7 +19,7 @@ from flexcage.cages.build import build_cage_mesh, rigid_interface_of
 from flexcage.cages.window import CAGE_TYPE as WINDOW
 from flexcage.cages.window.cage import ROLLER_CAGES, WindowCage
 from flexcage.cages.window.defects import SideBeamDefect
-from flexcage.cages.window.measure import pocket_size
+from flexcage.cages.window.faces import pocket_size
 from flexcage.case import Case
 from flexcage.case.description import in_words
 from flexcage.core import registry

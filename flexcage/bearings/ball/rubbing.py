@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from flexcage.cages.machined.cage import BallCage
+from flexcage.cages.round_pocket.cage import BallCage
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.hertz import PointContact

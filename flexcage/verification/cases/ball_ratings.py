@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from math import cos, radians, sin, tan
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
-from flexcage.bearings.ball.bearing import BallBearing
 from flexcage.verification.ball_bearings import deep_groove, preset
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
+
+if TYPE_CHECKING:
+    from flexcage.bearings.ball.bearing import BallBearing
 
 # ISO 281:2007, f_c of single-row radial and angular contact ball bearings
 RADIAL_FC = {
@@ -30,7 +32,7 @@ RADIAL_F0 = {
 }  # fmt: skip
 THRUST_F0 = {0.0: 61.6, 0.01: 60.8, 0.02: 59.9}
 FLAT = 1e-12  # in the place of a ratio of 0
-Balls = TypeVar("Balls", bound=BallBearing)
+Balls = TypeVar("Balls", bound="BallBearing")
 THRUST = radians(45.0) + 2e-9  # the least contact angle of thrust bearings
 LAST_DIGIT = Tolerance(
     0.06, "printed to one decimal, from constants of two and three digits", absolute=True
