@@ -1,4 +1,7 @@
-"""Add what is yours: bearing families, laws, constraints, mode bases, variables, pictures, ..."""
+"""Add what is yours: bearing families, laws, constraints, mode bases, variables, pictures, ...
+
+``quantity`` and ``option`` are the fields of specs, ``Variable`` describes a result.
+"""
 
 from flexcage._names import lazy
 

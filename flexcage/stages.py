@@ -1,14 +1,14 @@
 """The stages before a run: each turns specs and what came before into the next frozen value.
 
-cage -> mesh -> modes -> bodies -> contacts and system -> start. A stage takes what its Protocol
-names, ``CageSpecs`` or ``MotionSpecs``; a case has it all.
+cage -> mesh -> modes -> bodies -> contacts and system -> start. A stage takes those sections of a
+case that it needs: the cage's, a static solution's, or all (``case.sections``).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -16,20 +16,13 @@ from flexcage.bearings import bending_of, motion_of, sections_of, statics_of
 from flexcage.bodies.cage import flexible_from_reduction, rigid_from_tets
 from flexcage.bodies.floating_frame import FlexibleBody
 from flexcage.cages.build import build_cage_mesh, reduce_cage, rigid_interface_of
-from flexcage.contacts.spec import Contacts, Lubricant
+from flexcage.case.sections import CageSections, CaseSections, StaticSections
 from flexcage.core.progress import Silent
 from flexcage.core.timing import Stages
-from flexcage.geometry.bearing import Bearing as BearingSpec
-from flexcage.geometry.cage import Cage as CageSpec
-from flexcage.geometry.defect import CageDefect
-from flexcage.geometry.ring import InnerRing, OuterRing
 from flexcage.mesh.cage_mesh import CageMesh
-from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.quality import check_mesh
 from flexcage.modes.reduction import CageReduction
-from flexcage.modes.spec import ModesSpec
 from flexcage.modes.table import ModeTable
-from flexcage.results.options import OutputOptions
 from flexcage.system.bending import rigid_rings
 from flexcage.system.bodies import heaviest_load, in_housing
 from flexcage.system.constraints import names_of
@@ -39,7 +32,6 @@ from flexcage.system.problem import Bearing
 from flexcage.system.ring_modes import DAMPED
 from flexcage.system.ring_walls import lands_follow
 from flexcage.system.rings_in_motion import MovingRings, moving_rings
-from flexcage.system.spec import Constraint, Drive, Limits, Load, Mount, StartOptions
 from flexcage.system.start import Start, constrained, find_start, with_push
 from flexcage.system.statics.options import AT_START
 from flexcage.system.statics.rings import BentRing, Rings
@@ -51,104 +43,20 @@ from flexcage.system.swinging import no_swings
 Cage = tuple[CageMesh, CageReduction | None]  # the second: None for a rigid cage
 
 
-class CageSpecs(Protocol):
-    """What says of which shape and how flexible a cage is."""
-
-    @property
-    def cage(self) -> CageSpec: ...
-    @property
-    def cage_model(self) -> str: ...
-    @property
-    def cage_shape(self) -> Mapping[str, Any]:
-        """What ``cages.build.build_cage_mesh`` asks for, by name."""
-
-    @property
-    def all_defects(self) -> Sequence[CageDefect]: ...
-    @property
-    def mesh(self) -> MeshOptions: ...
-    @property
-    def modes(self) -> ModesSpec: ...
-
-
-class MotionSpecs(Protocol):
-    """What says how a bearing moves with its cage, and what is sampled of it."""
-
-    @property
-    def bearing(self) -> BearingSpec: ...
-    @property
-    def cage(self) -> CageSpec: ...
-    @property
-    def all_defects(self) -> Sequence[CageDefect]: ...
-    @property
-    def modes(self) -> ModesSpec: ...
-    @property
-    def contacts(self) -> Contacts: ...
-    @property
-    def lubricant(self) -> Lubricant: ...
-    @property
-    def drive(self) -> Drive: ...
-    @property
-    def load(self) -> Load: ...
-    @property
-    def speed(self) -> float: ...
-    @property
-    def inner_ring(self) -> InnerRing: ...
-    @property
-    def outer_ring(self) -> OuterRing: ...
-    @property
-    def mount(self) -> Mount: ...
-    @property
-    def rings_bend(self) -> bool: ...
-    @property
-    def constraints(self) -> Sequence[Constraint]: ...
-    @property
-    def seed(self) -> int: ...
-    @property
-    def output(self) -> OutputOptions: ...
-
-
-class StaticSpecs(Protocol):
-    """What says where the static solution is."""
-
-    @property
-    def bearing(self) -> BearingSpec: ...
-    @property
-    def contacts(self) -> Contacts: ...
-    @property
-    def lubricant(self) -> Lubricant: ...
-    @property
-    def load(self) -> Load: ...
-    @property
-    def speed(self) -> float: ...
-
-
-class StartSpecs(StaticSpecs, Protocol):
-    """What says where a run begins."""
-
-    @property
-    def mount(self) -> Mount: ...
-    @property
-    def constraints(self) -> Sequence[Constraint]: ...
-    @property
-    def start(self) -> StartOptions: ...
-    @property
-    def limits(self) -> Limits: ...
-
-
-def made_cage(specs: CageSpecs, stages: Stages) -> Cage:
+def made_cage(specs: CageSections, stages: Stages) -> Cage:
     """A cage: its mesh and, if it is flexible, its reduction."""
     mesh = stages.named("mesh", cage_mesh, specs)
     return mesh, stages.named("modes", cage_reduction, specs, mesh)
 
 
-def cage_mesh(specs: CageSpecs) -> CageMesh:
+def cage_mesh(specs: CageSections) -> CageMesh:
     """Mesh of a cage, checked."""
     mesh = build_cage_mesh(**specs.cage_shape)
     check_mesh(mesh, where=specs.mesh.file or "mesh")
     return mesh
 
 
-def cage_reduction(specs: CageSpecs, mesh: CageMesh) -> CageReduction | None:
+def cage_reduction(specs: CageSections, mesh: CageMesh) -> CageReduction | None:
     """Finite elements, modes and interface of a flexible cage; None for a rigid one."""
     if specs.cage_model == "rigid":
         return None
@@ -156,7 +64,7 @@ def cage_reduction(specs: CageSpecs, mesh: CageMesh) -> CageReduction | None:
     return next((cage for cage in _at_hand if cage.same_as(made)), made)
 
 
-def _reduced(specs: CageSpecs, mesh: CageMesh) -> CageReduction:
+def _reduced(specs: CageSections, mesh: CageMesh) -> CageReduction:
     return reduce_cage(
         mesh, cage=specs.cage, defects=specs.all_defects, spec=specs.modes, order=specs.mesh.order
     )
@@ -171,17 +79,17 @@ def keep_at_hand(cage: CageReduction | None) -> None:
     _at_hand[:] = [] if cage is None else [cage]
 
 
-def cage_modes(specs: CageSpecs) -> ModeTable:
+def cage_modes(specs: CageSections) -> ModeTable:
     """Mode table of a cage, taken as flexible."""
     return flexible_cage(specs).table
 
 
-def flexible_cage(specs: CageSpecs) -> CageReduction:
+def flexible_cage(specs: CageSections) -> CageReduction:
     """The reduction of a cage, taken as flexible."""
     return _reduced(specs, cage_mesh(specs))
 
 
-def bearing_in_motion(specs: MotionSpecs, mesh: CageMesh, cage: CageReduction | None) -> Bearing:
+def bearing_in_motion(specs: CaseSections, mesh: CageMesh, cage: CageReduction | None) -> Bearing:
     """Bodies, contacts and equations of motion, which are compiled when first asked for."""
     if cage is None:
         body = rigid_from_tets(mesh.points, mesh.tets, specs.cage.material.density)
@@ -190,24 +98,24 @@ def bearing_in_motion(specs: MotionSpecs, mesh: CageMesh, cage: CageReduction | 
     return _assembled(specs, body, cage.interface, _moving_rings(specs))
 
 
-def bearing_to_compile(specs: MotionSpecs) -> Bearing:
+def bearing_to_compile(specs: CaseSections) -> Bearing:
     """The same with any body for its cage: kernels are alike for all."""
     body = rigid_from_tets(np.eye(4, 3, -1), np.array([[0, 1, 2, 3]]), 1.0)
     return _assembled(specs, body, _rigid_interface(specs))
 
 
-def _rigid_interface(specs: MotionSpecs) -> Any:
+def _rigid_interface(specs: CaseSections) -> Any:
     count = specs.bearing.element_count
     return rigid_interface_of(specs.cage, pocket_count=count, defects=specs.all_defects)
 
 
-def bent_rings(specs: MotionSpecs) -> tuple[BentRing, ...]:
+def bent_rings(specs: CaseSections) -> tuple[BentRing, ...]:
     """The rings that bend, as a run begins; none if both are rigid."""
     rings = _moving_rings(specs)
     return rings.start.rings if rings else ()
 
 
-def _moving_rings(specs: MotionSpecs) -> MovingRings | None:
+def _moving_rings(specs: CaseSections) -> MovingRings | None:
     if not specs.rings_bend:
         return None
     rings = replace(_rings_of(specs), heavier=heaviest_load(specs.load))
@@ -216,12 +124,12 @@ def _moving_rings(specs: MotionSpecs) -> MovingRings | None:
     return moving_rings(rings, _statics(specs, rings, seat), stands=stands)
 
 
-def _rings_of(specs: MotionSpecs) -> Rings:
+def _rings_of(specs: CaseSections) -> Rings:
     return Rings(specs.inner_ring, specs.outer_ring, sections_of(specs.bearing))
 
 
 def _statics(
-    specs: StaticSpecs, rings: Rings | None = None, seat: np.ndarray | None = None
+    specs: StaticSections, rings: Rings | None = None, seat: np.ndarray | None = None
 ) -> StaticSolution:
     return solve_bearing(
         specs.bearing, statics_of(specs.bearing), load=specs.load, speed=specs.speed,
@@ -231,7 +139,7 @@ def _statics(
 
 
 def _assembled(
-    specs: MotionSpecs, body: FlexibleBody, interface: Any, rings: MovingRings | None = None
+    specs: CaseSections, body: FlexibleBody, interface: Any, rings: MovingRings | None = None
 ) -> Bearing:
     """``interface``: what moves in the cage's pockets; ``rings``: those that bend, any if they are
     left out."""
@@ -263,7 +171,7 @@ def _assembled(
 
 
 def assembled_start(
-    specs: StartSpecs, bearing: Bearing, progress: Callable[..., Any] = Silent
+    specs: CaseSections, bearing: Bearing, progress: Callable[..., Any] = Silent
 ) -> Start:
     """Where a run begins: the bearing assembled and in equilibrium at the drive's first speed, its
     cage pushed off if ``start`` says so, and all on the constraints.

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, cast
 from flexcage.core.errors import InputError
 from flexcage.core.registry import check_free
 from flexcage.core.wings import FAMILIES
-from flexcage.geometry.bearing import BEARING_TYPES, Bearing, name_of
+from flexcage.geometry.bearing import BEARING_TYPES, Bearing, Rules, name_of
 
 if TYPE_CHECKING:
     from flexcage.geometry.inside import Inside
@@ -38,6 +38,7 @@ class Family:
 
     name: str
     types: tuple[type[Bearing], ...]
+    rules: Rules[Any]  # is one possible, what is it rated for, where does its cage face rings
     statics: Callable[[], ElementsOf] | None
     motion: Callable[[], Motion[Any]] | None
     recording: Callable[[], Recording[Any]] | None

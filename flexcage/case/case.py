@@ -15,8 +15,11 @@ from typing import Any
 
 from flexcage.case.checks import check_case, refuse_without_motion
 from flexcage.case.files import absolute, bytes_of, file_paths, with_files
-from flexcage.case.presets import NAMED, load_preset
+from flexcage.case.presets import NAMED
 from flexcage.case.read import read_case
+from flexcage.case.read_values import assumptions, files_of
+from flexcage.case.sections import CAGE_MODELS as CAGE_MODELS
+from flexcage.case.sections import CaseSections
 from flexcage.case.static import StaticCase
 from flexcage.case.tables import (
     ALIASES,
@@ -26,31 +29,18 @@ from flexcage.case.tables import (
     without_aliases,
     words_of_text,
 )
-from flexcage.case.unread import reasons
-from flexcage.contacts.spec import LandSpec
 from flexcage.core import html
 from flexcage.core.binding import (
     Binder,
     check_spec,
     chosen_names,
-    default_of,
     flat,
 )
 from flexcage.core.hashing import content_hash
 from flexcage.core.registry import source_of
-from flexcage.core.spec import option
-from flexcage.core.unread import why_unread
 from flexcage.geometry.bearing import Bearing
-from flexcage.geometry.cage import Cage
-from flexcage.geometry.defect import CageDefect
-from flexcage.mesh.options import MeshOptions
-from flexcage.modes.spec import ModesSpec
-from flexcage.results.options import OutputOptions
-from flexcage.solve.options import SolverOptions
-from flexcage.system.spec import Constraint, Drive, Limits, StartOptions
 from flexcage.system.statics.options import StaticOptions
 
-CAGE_MODELS = ("flexible", "rigid")
 _FEW = 8  # values of a list that a notebook shows
 _NOT_PHYSICS = ("name", "description", "preset", "static", "given")
 #: Sections in the order of texts and pages; others follow.
@@ -62,29 +52,12 @@ _ORDER = (
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class Case(StaticCase):
+class Case(CaseSections, StaticCase):
     """One simulation: bearing, cage and defects, and how they are meshed, driven and solved.
 
     Frozen: ``case.replace("cage.pocket_width", "8.25 mm")`` gives a varied copy. Every case is
     checked when it is made; an impossible one raises InputError with one sentence.
     """
-
-    cage: Cage = option(doc="the cage")
-    cage_model: str = option("flexible", doc="how the cage is modelled", choices=CAGE_MODELS)
-    defects: tuple[CageDefect, ...] = option((), doc="deformations of the cage, any number")
-    mesh: MeshOptions = option(MeshOptions(), doc="the cage's mesh")
-    modes: ModesSpec = option(ModesSpec(), doc="the cage's modes")
-    drive: Drive = option(Drive(), doc="what turns the inner ring")
-    constraints: tuple[Constraint, ...] = option(
-        (), doc="what holds or moves rings and cage besides, any number"
-    )
-    start: StartOptions = option(StartOptions(), doc="how the start departs from equilibrium")
-    solver: SolverOptions = option(SolverOptions(), doc="the integrator")
-    output: OutputOptions = option(OutputOptions(), doc="what is kept of a run")
-    limits: Limits = option(Limits(), doc="limits beyond which a start is refused")
-    seed: int = option(0, doc="seed of everything random in a bearing: sizes, places", minimum=0)
-
-    _in_motion = True
 
     def check(self) -> None:
         """Raise InputError for the first thing in the case that cannot be."""
@@ -160,8 +133,7 @@ class Case(StaticCase):
     @property
     def files(self) -> dict[str, str]:
         """Files that the case names, by path; none of those of a flexible cage if it is rigid."""
-        named = {path: _at(self, path) for path in file_paths(Case) if _at(self, path)}
-        return {path: file for path, file in named.items() if self._reads(path)}
+        return files_of(self)
 
     def difference(self, other: Case) -> dict[str, tuple[Any, Any]]:
         """Values of this case and of another that differ and count, by dotted path; None where
@@ -175,60 +147,11 @@ class Case(StaticCase):
         return {k: (mine.get(k), its.get(k)) for k in keys if mine.get(k) != its.get(k)}
 
     @property
-    def cage_shape(self) -> dict[str, Any]:
-        """What ``cages.build.build_cage_mesh`` asks for, by name."""
-        return {
-            "cage": self.cage,
-            "pocket_count": self.bearing.element_count,
-            "pitch_diameter": self.bearing.pitch_diameter,
-            "defects": self.all_defects,
-            "options": self.mesh,
-        }
-
-    @property
-    def all_defects(self) -> tuple[CageDefect, ...]:
-        """Defects that the case names, and those that make its pockets' spacing uneven."""
-        uneven = self.cage.uneven_pockets(self.bearing.element_count, self.seed)
-        return (*self.defects, *uneven)
-
-    @property
-    def land(self) -> LandSpec:
-        """The cage's land, with the clearance and width that the dimensions leave where the case
-        gives none."""
-        return self.contacts.land.on(self.bearing.land(self.cage))
-
-    @property
-    def held_in_words(self) -> str:
-        """How the inner ring is held in a run, in words."""
-        return self.load.held_in_words(axially=self.load.frees_axially(self.bearing))
-
-    @property
-    def riveted(self) -> bool:
-        """Whether its cage is flexible and held together by rivets, whose loads are then known."""
-        return self.cage_model == "flexible" and self.cage.riveted
-
-    @property
     def assumptions(self) -> dict[str, str]:
         """Values that count in this case, that no source gives and that nobody gave: path to
         reason. Of a case that was made of objects, a value as by default is one that nobody gave.
         """
-        found = dict(_standing_assumptions(self, ""))
-        if self.preset:
-            preset = load_preset(self.preset)
-            for path, reason in preset.assumptions.items():
-                room, _, rest = path.partition(".")
-                origin = getattr(preset, room)
-                if (value := _at(self, path)) is not None and value == _at(origin, rest):
-                    found[path] = reason
-        given = set() if self.given is None else set(self.given)
-        return {k: v for k, v in found.items() if k not in given and self._reads(k)}
-
-    def _reads(self, path: str) -> bool:
-        """Does anything read the value at a dotted path, in a bearing and cage such as these?"""
-        guided = self.bearing.land(self.cage) is not None and self.land.kind != "none"
-        if path.startswith("contacts.land") and not guided:
-            return False
-        return not why_unread(path, reasons(self))
+        return assumptions(self)
 
     def __repr__(self) -> str:
         defects = f", {len(self.defects)} defect(s)" if self.defects else ""
@@ -270,29 +193,6 @@ def _with_cage(table: dict[str, Any], binder: Binder) -> dict[str, Any]:
     bearing = binder.bind(Bearing, table["bearing"], "bearing")
     cage = binder.bind(bearing.cage_spec, table["cage"], "cage")
     return {**table, "bearing": bearing, "cage": cage}
-
-
-def _at(spec: Any, path: str) -> Any:
-    """The value at a dotted path, None where there is none."""
-    for key in path.split("."):
-        spec = getattr(spec, key, None)
-    return spec
-
-
-def _standing_assumptions(spec: Any, where: str, default: Any = None) -> list[tuple[str, str]]:
-    """Path and reason of values that are assumptions, count, and are as ``default`` has them, or
-    as their own fields do where the default is a spec of another class."""
-    found = []
-    for field in dataclasses.fields(spec):
-        value = getattr(spec, field.name)
-        usual = getattr(default, field.name) if type(default) is type(spec) else default_of(field)
-        path = f"{where}.{field.name}" if where else field.name
-        reason, laws = field.metadata.get("assumption"), field.metadata.get("of")
-        if reason and value == usual and (not laws or spec.law in laws):
-            found.append((path, reason))
-        if dataclasses.is_dataclass(value):
-            found.extend(_standing_assumptions(value, path, usual))
-    return found
 
 
 def load_case(

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from flexcage.bearings import in_motion
 from flexcage.cages import cage_type_of
+from flexcage.case.read_values import files_of
 from flexcage.case.ring_checks import find_bending_in_run, find_in_rings
 from flexcage.core.binding import chosen_spec, default_of, join
 from flexcage.core.errors import InputError
@@ -20,8 +21,7 @@ from flexcage.geometry.cage import Cage
 from flexcage.geometry.checks import OVERLOAD, greatest_speed
 
 if TYPE_CHECKING:
-    from flexcage.case.case import Case
-    from flexcage.case.static import StaticCase
+    from flexcage.case.sections import CaseSections, StaticSections
 
 Finding = tuple[str, str]  # where, sentence
 
@@ -35,7 +35,7 @@ _MOST_SAMPLES = 1e8  # of either grid: a run's file has some TB then
 _MOST_ELEMENTS = 1e7  # assumption: more than a machine of 64 GB factors
 
 
-def check_case(case: Case) -> None:
+def check_case(case: CaseSections) -> None:
     """Raise InputError for the first thing in the case that cannot be."""
     refuse_without_motion(case.bearing)
     _check_cage_type(case.bearing, case.cage)
@@ -70,7 +70,7 @@ def _check_cage_type(bearing: Bearing, cage: Cage) -> None:
         )
 
 
-def check_static_case(case: StaticCase) -> None:
+def check_static_case(case: StaticSections) -> None:
     """Raise InputError for the first thing that cannot be in the case of a static solution."""
     case.bearing.check()
     _raise_first(case, _OF_EVERY_CASE)
@@ -109,7 +109,7 @@ def _find_infinite(spec: Any, where: str = "") -> Iterator[Finding]:
                 yield here, f"{here} is infinite; give a finite value."
 
 
-def _find_in_name(case: Case) -> Iterator[Finding]:
+def _find_in_name(case: CaseSections) -> Iterator[Finding]:
     if wrong := unusable(case.name):
         yield "name", f"name is {wrong}."
 
@@ -126,7 +126,7 @@ def _find_in_materials(case: Any) -> Iterator[Finding]:
             )
 
 
-def _find_in_temperature(case: Case) -> Iterator[Finding]:
+def _find_in_temperature(case: CaseSections) -> Iterator[Finding]:
     if case.cage.temperature is not None and case.modes.body:
         yield (
             "cage.temperature",
@@ -135,7 +135,7 @@ def _find_in_temperature(case: Case) -> Iterator[Finding]:
         )
 
 
-def _find_in_load(case: Case) -> Iterator[Finding]:
+def _find_in_load(case: CaseSections) -> Iterator[Finding]:
     rating = case.bearing.static_rating
     load = case.load
     for where, value in (
@@ -154,7 +154,7 @@ def _find_in_load(case: Case) -> Iterator[Finding]:
             )
 
 
-def _find_in_tilt(case: Case) -> Iterator[Finding]:
+def _find_in_tilt(case: CaseSections) -> Iterator[Finding]:
     tilt, most = abs(case.load.misalignment), case.bearing.greatest_tilt
     if tilt > most:
         yield (
@@ -165,7 +165,7 @@ def _find_in_tilt(case: Case) -> Iterator[Finding]:
         )
 
 
-def _find_in_speed(case: Case) -> Iterator[Finding]:
+def _find_in_speed(case: CaseSections) -> Iterator[Finding]:
     drive, most = case.drive, greatest_speed(case.bearing)
     for where, value in (
         ("drive.speed", abs(drive.speed)),
@@ -184,7 +184,7 @@ def _find_in_speed(case: Case) -> Iterator[Finding]:
             )
 
 
-def _find_in_held_motions(case: Case) -> Iterator[Finding]:
+def _find_in_held_motions(case: CaseSections) -> Iterator[Finding]:
     """Loads along motions of the inner ring that are held, and motions that cannot be free."""
     bears, tilt, spring = _bears_axially(case), case.load.tilt == "free", case.load.tilt_stiffness
     own = case.bearing.carries_axial_load  # without a shaft's springs
@@ -220,12 +220,12 @@ def _find_in_held_motions(case: Case) -> Iterator[Finding]:
             )
 
 
-def _bears_axially(case: Case) -> bool:
+def _bears_axially(case: CaseSections) -> bool:
     """Is the inner ring free along the axis in a run, with something that brings it back?"""
     return case.load.frees_axially(case.bearing)
 
 
-def _find_in_axial_load(case: Case) -> Iterator[Finding]:
+def _find_in_axial_load(case: CaseSections) -> Iterator[Finding]:
     """Axial loads that neither the bearing nor its shaft carries."""
     load, where = case.load, "load.axial"
     if load.axial_stiffness > 0.0:
@@ -244,7 +244,7 @@ def _find_in_axial_load(case: Case) -> Iterator[Finding]:
             )
 
 
-def _find_in_shaft(case: Case) -> Iterator[Finding]:
+def _find_in_shaft(case: CaseSections) -> Iterator[Finding]:
     """Springs and dampers of the shaft that hold nothing, or too little."""
     load = case.load
     later = (load.ramp_to or 0.0, *load.values) if load.varies == "axial" else ()
@@ -273,7 +273,7 @@ def _find_in_shaft(case: Case) -> Iterator[Finding]:
             )
 
 
-def _find_in_changes(case: Case) -> Iterator[Finding]:
+def _find_in_changes(case: CaseSections) -> Iterator[Finding]:
     """Axial loads that change over time where the inner ring's axial motion is held."""
     load = case.load
     changes = {"varies": load.ramp_to is not None or load.times, "wave_of": load.wave != "none"}
@@ -286,7 +286,7 @@ def _find_in_changes(case: Case) -> Iterator[Finding]:
             )
 
 
-def _find_in_held_centre(case: Case) -> Iterator[Finding]:
+def _find_in_held_centre(case: CaseSections) -> Iterator[Finding]:
     """What a ring whose centre is held cannot have: another integrator, loads that vary."""
     load, method = case.load, case.solver.method
     if load.centre == "free":
@@ -306,9 +306,9 @@ def _find_in_held_centre(case: Case) -> Iterator[Finding]:
             )
 
 
-def _find_in_mesh(case: Case) -> Iterator[Finding]:
+def _find_in_mesh(case: CaseSections) -> Iterator[Finding]:
     mesh, cage = case.mesh, case.cage
-    for where, file in case.files.items():
+    for where, file in files_of(case).items():
         yield from _find_in_path(file, where)
     if mesh.file:
         return
@@ -335,7 +335,7 @@ def _find_in_mesh(case: Case) -> Iterator[Finding]:
         )
 
 
-def _find_in_mount(case: Case) -> Iterator[Finding]:
+def _find_in_mount(case: CaseSections) -> Iterator[Finding]:
     if case.mount.body and case.mount.kind != "fixed":
         yield (
             "mount.body",
@@ -355,7 +355,7 @@ def _find_in_path(file: str, where: str) -> Iterator[Finding]:
         yield where, f"{where} is '{file}', which cannot be looked up ({reason})."
 
 
-def _find_in_tables(case: Case) -> Iterator[Finding]:
+def _find_in_tables(case: CaseSections) -> Iterator[Finding]:
     for room, values, name in (
         ("drive", case.drive.speeds, "speeds"),
         ("load", case.load.values, "values"),
@@ -379,7 +379,7 @@ def _find_in_tables(case: Case) -> Iterator[Finding]:
                 break
 
 
-def _find_in_ramps(case: Case) -> Iterator[Finding]:
+def _find_in_ramps(case: CaseSections) -> Iterator[Finding]:
     yield from _find_in_acceleration(case)
     for room in ("drive", "load"):
         spec = getattr(case, room)
@@ -399,7 +399,7 @@ def _find_in_ramps(case: Case) -> Iterator[Finding]:
             yield f"{room}.times", f"[{room}] has both a ramp and a table; keep one of them."
 
 
-def not_reached(case: Case) -> Iterator[str]:
+def not_reached(case: CaseSections) -> Iterator[str]:
     """Sentences on ramps and tables that begin when the run is over: no mistake in a short look at
     a case, but one to be told of."""
     end = case.solver.duration
@@ -413,7 +413,7 @@ def not_reached(case: Case) -> Iterator[str]:
             yield f"{room}.times begins at {begin}, {over} its first value holds all along."
 
 
-def _find_in_acceleration(case: Case) -> Iterator[Finding]:
+def _find_in_acceleration(case: CaseSections) -> Iterator[Finding]:
     """A ramp of speed takes its time or its acceleration, not both."""
     drive = case.drive
     if drive.acceleration is None:
@@ -431,7 +431,7 @@ def _find_in_acceleration(case: Case) -> Iterator[Finding]:
         )
 
 
-def _find_in_waves(case: Case) -> Iterator[Finding]:
+def _find_in_waves(case: CaseSections) -> Iterator[Finding]:
     for room in ("drive", "load"):
         spec = getattr(case, room)
         if spec.wave == "none":
@@ -450,7 +450,7 @@ def _find_in_waves(case: Case) -> Iterator[Finding]:
             )
 
 
-def _find_in_solver(case: Case) -> Iterator[Finding]:
+def _find_in_solver(case: CaseSections) -> Iterator[Finding]:
     solver = case.solver
     if solver.min_step > solver.max_step:
         yield (
@@ -488,7 +488,7 @@ def _find_in_solver(case: Case) -> Iterator[Finding]:
             )
 
 
-def _find_in_output(case: Case) -> Iterator[Finding]:
+def _find_in_output(case: CaseSections) -> Iterator[Finding]:
     output = case.output
     ratio = output.vibration_rate / output.rate
     if abs(ratio - round(ratio)) > 1e-9 * ratio or ratio < 1.0:
@@ -500,7 +500,7 @@ def _find_in_output(case: Case) -> Iterator[Finding]:
         )
 
 
-def _find_in_laws(case: Case) -> Iterator[Finding]:
+def _find_in_laws(case: CaseSections) -> Iterator[Finding]:
     places = ("race", "pocket", "side", "rib", "land")
     for place in places:
         spec = getattr(case.contacts, place)
@@ -525,7 +525,7 @@ def _find_in_laws(case: Case) -> Iterator[Finding]:
             )
 
 
-def _find_in_land(case: Case) -> Iterator[Finding]:
+def _find_in_land(case: CaseSections) -> Iterator[Finding]:
     land = case.contacts.land
     if case.cage.guidance in ("inner", "outer") and land.kind == "none":
         yield (
@@ -538,7 +538,7 @@ def _find_in_land(case: Case) -> Iterator[Finding]:
         yield from _find_in_width(case)
 
 
-def _find_in_clearance(case: Case) -> Iterator[Finding]:
+def _find_in_clearance(case: CaseSections) -> Iterator[Finding]:
     """Clearances of the land that no dimensions give, or that they contradict."""
     where, given = "contacts.land.clearance", case.contacts.land.clearance
     guidance, ring = case.cage.guidance, case.bearing.land(case.cage)
@@ -565,7 +565,7 @@ def _find_in_clearance(case: Case) -> Iterator[Finding]:
         )
 
 
-def _find_in_width(case: Case) -> Iterator[Finding]:
+def _find_in_width(case: CaseSections) -> Iterator[Finding]:
     """Lands wider than where cage and ring face each other, or a guided cage that faces none."""
     where, given = "contacts.land.width", case.contacts.land.width
     ring = case.bearing.land(case.cage)
@@ -592,7 +592,7 @@ def _find_in_width(case: Case) -> Iterator[Finding]:
         )
 
 
-def land_beside_shoulder(case: Case) -> Iterator[str]:
+def land_beside_shoulder(case: CaseSections) -> Iterator[str]:
     """A sentence on a clearance that is not what the shoulder of the guiding ring leaves: no
     mistake, as the ring may have a land of its own, but one to know of."""
     given, ring = case.contacts.land.clearance, case.bearing.land(case.cage)

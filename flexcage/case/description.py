@@ -5,9 +5,10 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
-from flexcage.case.case import Case
 from flexcage.case.extensions import sources
-from flexcage.case.presets import load_preset
+from flexcage.case.presets import NAMED, load_preset
+from flexcage.case.read_values import assumptions
+from flexcage.case.sections import CaseSections
 from flexcage.core.binding import to_table
 from flexcage.core.units import typeset
 from flexcage.geometry.cage import Cage
@@ -15,14 +16,14 @@ from flexcage.geometry.temperature import MODULUS_CURVES
 from flexcage.system.spec import Load, Wave
 
 
-def in_words(case: Case) -> list[str]:
+def in_words(case: CaseSections) -> list[str]:
     """Paragraphs: bearing, cage and defects; drive and load; and how it was computed."""
     asked = f"The case calls itself “{case.description}”." if case.description else ""
     what = f"{case.bearing.in_words()} {_cage(case)} {_defects(case)}"
     return [text for text in (asked, what, f"{_motion(case)} {_method(case)}") if text]
 
 
-def _cage(case: Case) -> str:
+def _cage(case: CaseSections) -> str:
     cage, bearing = case.cage, case.bearing
     guide = bearing.guides.get(cage.guidance, f"its {bearing.element}s")
     return (
@@ -38,14 +39,14 @@ def _warm(cage: Cage) -> str:
     return f" at {typeset(cage.temperature, 'degC')} ({modulus}; its strength is that at 23°C)"
 
 
-def _defects(case: Case) -> str:
+def _defects(case: CaseSections) -> str:
     if not case.defects:
         return "The cage has no defect."
     texts = [d.in_words(case.bearing.element_count) for d in case.defects]
     return f"{case.cage.altered}: {'; '.join(texts)}."
 
 
-def _motion(case: Case) -> str:
+def _motion(case: CaseSections) -> str:
     drive, load = case.drive, case.load
     speed = f"turns at {typeset(drive.speed, 'rpm')}"
     if drive.times:
@@ -73,10 +74,12 @@ def _motion(case: Case) -> str:
     )
 
 
-def _constraints(case: Case) -> str:
+def _constraints(case: CaseSections) -> str:
     """What holds or moves rings and cage besides: kinds, with what is not as it would be anyway."""
     parts = []
-    for spec, table in zip(case.constraints, case.to_table()["constraints"], strict=True):
+    for spec, table in zip(
+        case.constraints, to_table(case, named=NAMED)["constraints"], strict=True
+    ):
         usual = {f.name: f.default for f in dataclasses.fields(spec)}
         own = [f"{k} {v}" for k, v in table.items() if getattr(spec, k) != usual[k]]
         parts.append(f"{spec.type} ({', '.join(own)})" if own else spec.type)
@@ -87,7 +90,7 @@ def _wave(spec: Wave, amplitude: str) -> str:
     return f"a {spec.wave} wave of {amplitude} and {typeset(spec.wave_period, 'ms')}"
 
 
-def _load(case: Case) -> str:
+def _load(case: CaseSections) -> str:
     """What loads the inner ring."""
     load = case.load
     moments = {"about y": load.moment_y, "about z": load.moment_z}
@@ -110,7 +113,7 @@ def _load_along(load: Load, along: str) -> str:
     return f"{article} {along} load of {typeset(value, 'N')}" if value else ""
 
 
-def _method(case: Case) -> str:
+def _method(case: CaseSections) -> str:
     modes = ""
     if case.cage_model == "flexible":
         name = case.modes.kind.replace("_", "-")
@@ -125,9 +128,9 @@ def _method(case: Case) -> str:
     )
 
 
-def settings(case: Case) -> dict[str, str]:
+def settings(case: CaseSections) -> dict[str, str]:
     """How the case was computed: path of a setting to its value, as a case file writes it."""
-    table = case.to_table()
+    table = to_table(case, named=NAMED)
     rooms = ["solver", *(("mesh", "modes") if case.cage_model == "flexible" else ())]
     found = {f"{room}.{key}": _text(value) for room in rooms for key, value in table[room].items()}
     for place, laws in table["contacts"].items():
@@ -141,12 +144,12 @@ def _text(value: Any) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def assumed(case: Case) -> dict[str, tuple[str, str]]:
+def assumed(case: CaseSections) -> dict[str, tuple[str, str]]:
     """Values that no source gives: by path, the value as a case file writes it and the reason."""
-    table = case.to_table()
+    table = to_table(case, named=NAMED)
     table["contacts"]["land"] = to_table(case.land)
     table["modes"] = to_table(case.modes.damped_as(case.cage.warm_material))
-    return {path: (_value(table, path), why) for path, why in case.assumptions.items()}
+    return {path: (_value(table, path), why) for path, why in assumptions(case).items()}
 
 
 def _value(table: Any, path: str) -> str:
@@ -155,7 +158,7 @@ def _value(table: Any, path: str) -> str:
     return str(table.get("name", "its own values") if isinstance(table, dict) else table)
 
 
-def grounds(case: Case) -> dict[str, str]:
+def grounds(case: CaseSections) -> dict[str, str]:
     """Where the values of a case come from: its preset's sources and those of its materials."""
     found = dict(load_preset(case.preset).sources) if case.preset else {}
     for material in (case.bearing.material, case.cage.material):

@@ -21,6 +21,7 @@ from flexcage.core.texts import text_of
 from flexcage.core.toml import read_toml
 from flexcage.core.units import parse
 from flexcage.geometry.bearing import OTHER_DESIGNS, Bearing
+from flexcage.geometry.cage import Cage
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.other_kinds import kind_of
 
@@ -52,12 +53,12 @@ class Preset:
         return f"Preset('{self.name}': {self.title})"
 
     @property
-    def bearing(self) -> Any:
+    def bearing(self) -> Bearing:
         """The bearing: the spec that its ``type`` chooses."""
         return Binder(named=NAMED).bind(Bearing, self.tables["bearing"], "bearing")
 
     @property
-    def cage(self) -> Any:
+    def cage(self) -> Cage:
         """The cage: the spec that goes with the bearing's type."""
         return Binder(named=NAMED).bind(self.bearing.cage_spec, self.tables["cage"], "cage")
 

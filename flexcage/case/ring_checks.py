@@ -12,13 +12,12 @@ from flexcage.geometry.checks import Finding
 from flexcage.geometry.ring import SUPPORTED
 
 if TYPE_CHECKING:
-    from flexcage.case.case import Case
-    from flexcage.case.static import StaticCase
+    from flexcage.case.sections import CaseSections, StaticSections
 
 _LINE = 1e-6  # rad: two supports this near to a line through the axis hold across it alone
 
 
-def find_in_rings(case: StaticCase) -> Iterator[Finding]:
+def find_in_rings(case: StaticSections) -> Iterator[Finding]:
     """Supports that are missing, superfluous, or in each other's place."""
     ring, where = case.outer_ring, "outer_ring.supports"
     if ring.seat not in SUPPORTED:
@@ -58,7 +57,7 @@ def _azimuths(supports: tuple[float, ...]) -> str:
     return f"{len(supports) or 'no'} azimuth{'' if len(supports) == 1 else 's'}"
 
 
-def find_bending_in_run(case: Case) -> Iterator[Finding]:
+def find_bending_in_run(case: CaseSections) -> Iterator[Finding]:
     """What rings that bend cannot have in a run."""
     outer, mount = case.outer_ring, case.mount
     if outer.bends and outer.seat in SUPPORTED and (mount.kind != "fixed" or mount.body):

@@ -11,15 +11,15 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any, ClassVar, Self
+from typing import Any, Self
 
 from flexcage.case.checks import check_static_case
 from flexcage.case.files import file_paths, with_files
 from flexcage.case.frozen import explain
 from flexcage.case.presets import NAMED
 from flexcage.case.read import read_case
+from flexcage.case.sections import CaseSections, StaticSections
 from flexcage.case.tables import ALIASES, as_pairs, with_preset, without_aliases, words_of_text
-from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.core import html
 from flexcage.core.binding import (
     Binder,
@@ -32,42 +32,18 @@ from flexcage.core.binding import (
     with_their_choice,
 )
 from flexcage.core.errors import InputError
-from flexcage.core.spec import option
-from flexcage.geometry.bearing import Bearing, check_type
+from flexcage.geometry.bearing import check_type
 from flexcage.geometry.other_kinds import SURROUNDINGS
-from flexcage.geometry.ring import InnerRing, OuterRing
-from flexcage.system.spec import Drive, Load, Mount
-from flexcage.system.statics.options import StaticOptions
 
 _STATIC_MOUNT = ("body", "body_nodes", "body_units", "seat", "seat_tie")
 
 
 @dataclass(frozen=True, kw_only=True)
-class StaticCase:
+class StaticCase(StaticSections):
     """What a static solution is asked: bearing, contacts, load, speed and options.
 
     Of ramps and tables over time the start counts. Without [drive] the bearing stands still.
     """
-
-    name: str = option("case", doc="name, for titles and folders")
-    description: str = option("", doc="what this case is for")
-    preset: str = option("", doc="preset that the case started from")
-    bearing: Bearing = option(doc="the bearing")
-    contacts: Contacts = option(Contacts(), doc="contact laws, place by place")
-    lubricant: Lubricant = option(Lubricant(), doc="the lubricant")
-    drive: Drive = option(Drive(speed=0.0), doc="what turns the inner ring")
-    load: Load = option(Load(), doc="what loads the inner ring")
-    inner_ring: InnerRing = option(InnerRing(), doc="how the inner ring bends, if it does")
-    outer_ring: OuterRing = option(OuterRing(), doc="how the outer ring bends, if it does")
-    mount: Mount = option(Mount(), doc="what holds the outer ring")
-    static: StaticOptions = option(StaticOptions(), doc="how a static solution is meant")
-    given: tuple[str, ...] | None = dataclasses.field(
-        default=None, compare=False,
-        metadata={"hidden": True, "doc": "paths of values that the user gave, not of defaults"},
-    )  # fmt: skip
-
-    elsewhere: ClassVar[Mapping[str, str]] = SURROUNDINGS
-    _in_motion = False  # does it read all of [mount], or the housing's body alone?
 
     def __post_init__(self) -> None:
         explain(self)
@@ -77,16 +53,6 @@ class StaticCase:
         """Raise InputError for the first thing in the case that cannot be."""
         check_spec(self)
         check_static_case(self)
-
-    @property
-    def rings_bend(self) -> bool:
-        """Does a ring bend?"""
-        return self.inner_ring.bends or self.outer_ring.bends
-
-    @property
-    def speed(self) -> float:
-        """Speed of the inner ring [rad/s] at the start."""
-        return self.drive.at_start
 
     @classmethod
     def from_table(
@@ -99,7 +65,9 @@ class StaticCase:
         known = own | _of_a_simulation()
         for key in merged:
             if key not in known:
-                raise unknown_key(key, [*known - {*ALIASES.values(), "given"}], "", SURROUNDINGS)
+                raise unknown_key(
+                    key, sorted(known - {*ALIASES.values(), "given"}), "", SURROUNDINGS
+                )
         binder = Binder(named=NAMED, si=si)
         bearing = merged.get("bearing")
         if isinstance(bearing, Mapping):
@@ -214,9 +182,8 @@ def _asked_nothing() -> dict[str, Any]:
 
 def _of_a_simulation() -> set[str]:
     """Sections that only a simulation reads; a static solution checks the cage, ignores others."""
-    from flexcage.case.case import Case
-
-    simulated, still = ({f.name for f in dataclasses.fields(cls)} for cls in (Case, StaticCase))
+    kinds = (CaseSections, StaticCase)
+    simulated, still = ({f.name for f in dataclasses.fields(cls)} for cls in kinds)
     return simulated - still
 
 

@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING
 from flexcage.core.unread import unread, why_unread
 
 if TYPE_CHECKING:
-    from flexcage.case.case import Case
-    from flexcage.case.static import StaticCase
+    from flexcage.case.sections import CaseSections, StaticSections
 
 _WORDS = ("name", "description", "preset", "static", "given")  # read by people, or by no run
 _RIGID = "cage.model is 'rigid'"
@@ -23,7 +22,7 @@ _NEVER = {  # of materials beside the cage's, whose strength and damping no figu
 }
 
 
-def reasons(case: StaticCase) -> dict[str, str]:
+def reasons(case: StaticSections) -> dict[str, str]:
     """Dotted paths of values that nothing reads in such a case, and why: half a sentence. The path
     of a section stands for all values in it."""
     found = dict(unread(case))
@@ -36,7 +35,7 @@ def reasons(case: StaticCase) -> dict[str, str]:
     return found
 
 
-def not_used(case: StaticCase) -> Iterator[str]:
+def not_used(case: StaticSections) -> Iterator[str]:
     """A sentence on all values that were given and that nothing reads; none if all are read.
 
     A rigid cage leaves those of a flexible one alone: a comparison runs one case as both.
@@ -52,7 +51,7 @@ def not_used(case: StaticCase) -> Iterator[str]:
         yield f"Given, but not used: {'; '.join(parts)}."
 
 
-def _in_contacts(case: StaticCase) -> Iterator[tuple[str, str]]:
+def _in_contacts(case: StaticSections) -> Iterator[tuple[str, str]]:
     bearing = case.bearing
     for place in ("race", "pocket", "side", "rib"):
         if place not in bearing.places:
@@ -62,7 +61,7 @@ def _in_contacts(case: StaticCase) -> Iterator[tuple[str, str]]:
             yield f"contacts.{place}.slices", f"{bearing.element}s touch there in points"
 
 
-def _on_lands(case: Case) -> Iterator[tuple[str, str]]:
+def _on_lands(case: CaseSections) -> Iterator[tuple[str, str]]:
     bearing, cage = case.bearing, case.cage
     if bearing.land(cage) is None:
         why = f"no ring guides the cage: cage.guidance is '{cage.guidance}'"
@@ -73,7 +72,7 @@ def _on_lands(case: Case) -> Iterator[tuple[str, str]]:
             yield "contacts.land", f"the cage meets no land: cage.guidance is '{cage.guidance}'"
 
 
-def _in_materials(case: StaticCase) -> Iterator[tuple[str, str]]:
+def _in_materials(case: StaticSections) -> Iterator[tuple[str, str]]:
     for name, why in _NEVER.items():
         yield f"bearing.material.{name}", why
         for ring in ("inner_ring", "outer_ring"):
@@ -82,7 +81,7 @@ def _in_materials(case: StaticCase) -> Iterator[tuple[str, str]]:
         yield f"{ring}.material.density", "rings have the mass that bearing.material gives them"
 
 
-def _of_a_rigid_cage(case: Case) -> Iterator[tuple[str, str]]:
+def _of_a_rigid_cage(case: CaseSections) -> Iterator[tuple[str, str]]:
     if case.cage_model == "rigid":
         for path in ("modes", "mesh.order", "limits.stress", "output.keep_cage"):
             yield path, _RIGID
@@ -93,14 +92,14 @@ def _of_a_rigid_cage(case: Case) -> Iterator[tuple[str, str]]:
         yield "cage.material.loss_factor", f"modes.{given} is given"
 
 
-def _of_round_pockets(case: Case) -> Iterator[tuple[str, str]]:
+def _of_round_pockets(case: CaseSections) -> Iterator[tuple[str, str]]:
     if not case.cage.has_faces:
         why = "the cage's pockets are round"
         yield "modes.attachments", why
         yield "modes.crossbeams", why
 
 
-def _in_loads(case: StaticCase) -> Iterator[tuple[str, str]]:
+def _in_loads(case: StaticSections) -> Iterator[tuple[str, str]]:
     load = case.load
     if load.times:
         yield f"load.{load.varies}", "load.times is given"

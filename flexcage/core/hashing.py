@@ -77,9 +77,9 @@ def sealed(table: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def seal_holds(table: Mapping[str, Any]) -> bool:
-    """Is a table, as read from JSON, what was sealed? One without a seal was never sealed."""
+    """Is a table, as read from JSON, what was sealed?"""
     rest = {key: value for key, value in table.items() if key != "seal"}
-    return "seal" not in table or table["seal"] == _seal(rest)
+    return table.get("seal") == _seal(rest)
 
 
 def _seal(table: Mapping[str, Any]) -> str:

@@ -29,7 +29,8 @@ P = TypeVar("P")
 
 
 class Wing(Mapping[str, M], Generic[M]):
-    """Members of a wing by name: one from each folder of its package, then users' own.
+    """Members of a wing by name: one from each folder of its package, but for
+    folders of what several share, then users' own.
 
     A folder calls its member ``constant``. ``what`` says in errors what a member is ("bearing
     family").
@@ -45,8 +46,9 @@ class Wing(Mapping[str, M], Generic[M]):
             wing = importlib.import_module(self.package)
             folders = sorted(m.name for m in pkgutil.iter_modules(wing.__path__) if m.ispkg)
             for folder in folders:
-                member = getattr(importlib.import_module(f"{self.package}.{folder}"), self.constant)
-                self._members[member.name] = member
+                found = importlib.import_module(f"{self.package}.{folder}")
+                if member := getattr(found, self.constant, None):
+                    self._members[member.name] = member
             self._imported = True
         return self._members
 

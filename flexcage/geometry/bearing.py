@@ -1,16 +1,17 @@
 """What all bearing types share: the name by which a case asks for one, and what each can say of
 itself: its dimensions, checks, ratings, films, and words.
 
-A type is a spec of its own, which defines the methods of ``Bearing`` that it has an answer to. The
-others keep their plain default, or name themselves in a NotImplementedError.
+A type is a spec of its own, which defines the methods of ``Bearing`` that it has an answer to; what
+its family says of it are ``Rules``. The others keep their plain default, or name themselves in a
+NotImplementedError.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import inf
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 import numpy as np
 
@@ -19,10 +20,14 @@ from flexcage.core.errors import InputError
 from flexcage.core.spec import option
 from flexcage.core.units import typeset
 from flexcage.core.wings import FAMILIES, Parts
-from flexcage.geometry.cage import Cage
+from flexcage.geometry.cage import Cage, RingLimit
 from flexcage.geometry.film import Film, Oil
 from flexcage.geometry.other_kinds import kind_of, named_kind
 
+if TYPE_CHECKING:
+    from flexcage.geometry.materials import Material
+
+_MISSING = object()
 Spec = type  # by another name, for inside the spec ``type`` is a field
 
 #: Specs of bearings by the name that a case gives: those of all families, and users' own.
@@ -33,14 +38,6 @@ BEARING_TYPES: Parts[Spec] = Parts(
 OTHER_DESIGNS: Parts[str] = Parts(
     FAMILIES, lambda family: family.other_designs, what="bearing design"
 )
-
-
-@dataclass(frozen=True)
-class RingLimit:
-    """A part of a ring beside the cage: its diameter [m], and what it is."""
-
-    diameter: float
-    name: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -109,10 +106,26 @@ class Bearing:
     type: str = type_name("cylindrical_roller")
     designation: str = option("", doc="name in a catalogue")
 
-    if TYPE_CHECKING:
+    if TYPE_CHECKING:  # what every type has as a field, or says from its fields
 
-        def __getattr__(self, name: str) -> Any:  # dimensions of its own type
-            ...
+        @property
+        def bore(self) -> float: ...
+        @property
+        def outside_diameter(self) -> float: ...
+        @property
+        def width(self) -> float: ...
+        @property
+        def pitch_diameter(self) -> float: ...
+        @property
+        def material(self) -> Material: ...
+        @property
+        def inner_ring_mass(self) -> float: ...
+        @property
+        def outer_ring_mass(self) -> float: ...
+        @property
+        def inner_ring_inertia(self) -> tuple[float, float]: ...
+        @property
+        def outer_ring_inertia(self) -> tuple[float, float]: ...
 
     @property
     def guides(self) -> Mapping[str, str]:
@@ -167,31 +180,38 @@ class Bearing:
 
     def land(self, cage: Cage) -> RingLand | None:
         """Where the cage faces the ring that guides it, or that it may touch; None where it meets
-        none, or where the spec says nothing of the ring's land."""
-        return None
+        none, or where its family says nothing of the ring's land."""
+        found: RingLand | None = self._by_rule("land", cage, without=None)
+        return found
 
     def cage_space(self, cage: Cage) -> tuple[RingLimit | None, RingLimit | None]:
         """What of the inner and of the outer ring the cage meets first if it moves across the axis;
-        None where the spec does not say."""
-        return None, None
+        None where its family does not say."""
+        inner, outer = self._by_rule("cage_space", cage, without=(None, None))
+        return inner, outer
 
     def stops(self, cage: Cage) -> tuple[RingLand | None, RingLand | None]:
         """Where a cage that no ring guides meets the inner and the outer ring if it moves across
         the axis; None where a run computes no contact there."""
-        return None, None
+        inner, outer = self._by_rule("stops", cage, without=(None, None))
+        return inner, outer
 
     def _lacks(self, name: str) -> NotImplementedError:
         return NotImplementedError(f"{type(self).__name__} does not define {name}")
 
+    def _by_rule(self, name: str, *values: Any, without: Any = _MISSING) -> Any:
+        """What its family's rule says of it; ``without`` one, or NotImplementedError."""
+        rule = getattr(FAMILIES[self.family].rules, name) if self.family in FAMILIES else None
+        if rule is not None:
+            return rule(self, *values)
+        if without is _MISSING:
+            raise self._lacks(name)
+        return without
+
     def check(self, cage: Any = None, defects: Sequence[Any] = ()) -> None:
         """Raise InputError for the first impossibility found in bearing, cage or defects; without a
         cage the bearing alone is checked."""
-        raise self._lacks("check")
-
-    def find_around_cage(self, cage: Cage) -> Iterator[tuple[str, str]]:
-        """Where, and in a sentence, rings and elements leave a cage of these dimensions no
-        place."""
-        return iter(())
+        self._by_rule("check", cage, defects)
 
     @property
     def greatest_tilt(self) -> float:
@@ -216,16 +236,17 @@ class Bearing:
     @property
     def static_rating(self) -> float:
         """Basic static load rating C0 [N] of ISO 76: radial, or axial for thrust bearings."""
-        raise self._lacks("static_rating")
+        return float(self._by_rule("static_rating"))
 
     @property
     def dynamic_rating(self) -> float:
         """Basic dynamic load rating C [N] of ISO 281: radial, or axial for thrust bearings."""
-        raise self._lacks("dynamic_rating")
+        return float(self._by_rule("dynamic_rating"))
 
     def equivalent_load(self, radial: float, axial: float) -> EquivalentLoad:
         """Dynamic equivalent load of ISO 281 under a radial and an axial load [N], both >= 0."""
-        raise self._lacks("equivalent_load")
+        found: EquivalentLoad = self._by_rule("equivalent_load", radial, axial)
+        return found
 
     def race_film(self, force: np.ndarray, speed: np.ndarray, oil: Oil) -> Film:
         """Film at inner and outer race under forces (..., 2) [N] of elements at entrainment speeds
@@ -271,6 +292,26 @@ class Bearing:
     def in_words(self) -> str:
         """Sentences on its type and main dimensions, and on defects of its races."""
         return f"{self.name_and_size}."
+
+
+B = TypeVar("B", bound=Bearing)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rules(Generic[B]):
+    """What a family says of its bearings beside their dimensions, each a function of the bearing:
+    what ``Bearing`` has under the same name. None: nothing.
+
+    Specs are data; what is possible, rated, or left to a cage between rings stands here.
+    """
+
+    check: Callable[[B, Cage | None, Sequence[Any]], None] | None = None
+    static_rating: Callable[[B], float] | None = None
+    dynamic_rating: Callable[[B], float] | None = None
+    equivalent_load: Callable[[B, float, float], EquivalentLoad] | None = None
+    land: Callable[[B, Cage], RingLand | None] | None = None
+    cage_space: Callable[[B, Cage], tuple[RingLimit | None, RingLimit | None]] | None = None
+    stops: Callable[[B, Cage], tuple[RingLand | None, RingLand | None]] | None = None
 
 
 AnyBearing = TypeVar("AnyBearing", bound=type[Bearing])

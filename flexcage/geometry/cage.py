@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import nan, pi
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Protocol
 
 from flexcage.core.errors import InputError
 from flexcage.core.spec import GIVEN, option, quantity
@@ -15,7 +15,6 @@ from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.temperature import material_at
 
 if TYPE_CHECKING:
-    from flexcage.geometry.bearing import Bearing
     from flexcage.geometry.riveted_joint import JointShape
 
 Objection = tuple[str, str]  # name of a value, and what is wrong with it
@@ -30,6 +29,32 @@ def cages_of(element: str) -> Parts[type]:
     )
 
 
+@dataclass(frozen=True)
+class RingLimit:
+    """A part of a ring beside the cage: its diameter [m], and what it is."""
+
+    diameter: float
+    name: str
+
+
+class Elements(Protocol):
+    """The elements that a cage holds, as their bearing has them (``geometry.bearing``)."""
+
+    element: ClassVar[str]
+
+    @property
+    def element_count(self) -> int: ...
+    @property
+    def element_diameter(self) -> float: ...
+    @property
+    def element_length(self) -> float: ...
+    @property
+    def element_edge(self) -> float: ...
+    @property
+    def pitch_diameter(self) -> float: ...
+    def cage_space(self, cage: Cage) -> tuple[RingLimit | None, RingLimit | None]: ...
+
+
 @dataclass(frozen=True, kw_only=True)
 class Cage:
     """A cage of some type: ``type`` of those whose elements several cages hold says which, and
@@ -39,6 +64,11 @@ class Cage:
     altered: ClassVar[str] = "Defects"  # heads the list of its defects
     # do rivets of ``rivet_diameter`` between its pockets hold two halves together?
     riveted: ClassVar[bool] = False
+
+    if TYPE_CHECKING:  # of those that are riveted
+
+        @property
+        def rivet_diameter(self) -> float: ...
 
     material: Material = option(MATERIALS["brass"], doc="cage material (a name or its values)")
     bore: float = quantity("mm", doc="inside diameter", above=0.0)
@@ -87,6 +117,11 @@ class Cage:
         return nan
 
     @property
+    def pocket_reach(self) -> float:
+        """How far [m] a pocket reaches to both sides along the axis."""
+        raise NotImplementedError
+
+    @property
     def has_faces(self) -> bool:
         """Have its pockets plane faces, which a basis may have attachment vectors for?"""
         return True
@@ -122,11 +157,6 @@ class Cage:
         wall = pi / 4.0 * (self.outside_diameter**2 - self.bore**2)
         return 0.5 * self.material.density * wall * self.axial_width * self.mean_radius
 
-    if TYPE_CHECKING:
-
-        def __getattr__(self, name: str) -> Any:  # dimensions of its own type
-            ...
-
     def thinnest(self, pitch_diameter: float, pocket_count: int) -> float:
         """Least thickness [m] of wall and webs, for which elements must not be too large."""
         raise NotImplementedError
@@ -151,29 +181,6 @@ class Cage:
             raise InputError(f"{where}, {describe(value, 'mm')}, {what}.", where=where, value=value)
         material_at(self.material, self.temperature)
 
-    def no_room(self, bearing: Bearing) -> Iterator[Objection]:
+    def no_room(self, bearing: Elements) -> Iterator[Objection]:
         """What leaves no room in it for a bearing's elements, or for itself between them."""
         return iter(())
-
-    def interference(self, bearing: Bearing, defects: Sequence[Any]) -> Iterator[tuple[str, str]]:
-        """Where, and in a sentence, its defects leave an element less room than any assembly can
-        take."""
-        return iter(())
-
-    def check_defects(
-        self,
-        defects: Sequence[Any],
-        *,
-        pocket_count: int,
-        pitch_diameter: float,
-        element_diameter: float = 0.0,
-    ) -> None:
-        """Raise InputError for defects that a sound cage of these dimensions cannot have, in a
-        bearing whose elements have this pitch circle [m] and diameter [m] (0: any)."""
-        from flexcage.geometry.defect import check_each
-
-        check_each(defects, self, pocket_count)
-
-    def uneven_pockets(self, pocket_count: int, seed: int) -> tuple[Any, ...]:
-        """Defects that make its pockets' spacing uneven, drawn at random; none if it is even."""
-        return ()

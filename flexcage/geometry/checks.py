@@ -14,6 +14,7 @@ from flexcage.core.errors import InputError
 from flexcage.core.units import describe, mm
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
+from flexcage.geometry.defect import defect_spec
 
 Finding = tuple[str, str]  # where, sentence
 
@@ -39,9 +40,10 @@ def raise_first(findings: Iterator[Finding]) -> None:
         raise InputError(sentence, where=where)
 
 
-def check_room(bearing: Bearing, cage: Cage) -> None:
-    """Raise InputError for the first impossibility in a cage between elements and rings."""
-    raise_first(bearing.find_around_cage(cage))
+def check_room(bearing: Bearing, cage: Cage, around: Iterator[Finding]) -> None:
+    """Raise InputError for the first impossibility in a cage between elements and rings;
+    ``around``: what leaves it no place."""
+    raise_first(around)
     raise_first(
         (f"cage.{name}", f"cage.{name} is {describe(getattr(cage, name), 'mm')}, {what}.")
         for name, what in cage.no_room(bearing)
@@ -53,11 +55,12 @@ def check_cage_defects(bearing: Bearing, cage: Cage, defects: Sequence[Any]) -> 
     """Raise InputError for the first defect that the cage cannot have in this bearing."""
     if not defects:
         return
-    cage.check_defects(
-        defects, pocket_count=bearing.element_count, pitch_diameter=bearing.pitch_diameter,
+    spec = defect_spec(cage)
+    spec.check_all(
+        defects, cage, pocket_count=bearing.element_count, pitch_diameter=bearing.pitch_diameter,
         element_diameter=bearing.element_diameter,
     )  # fmt: skip
-    raise_first(cage.interference(bearing, defects))
+    raise_first(spec.interference(defects, cage, bearing))
 
 
 def _find_in_unbalance(c: Cage) -> Iterator[Finding]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeVar
+from typing import Any, ClassVar, Literal, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -18,9 +18,8 @@ from flexcage.core.errors import InputError
 from flexcage.core.registry import check_free, note_source
 from flexcage.core.spec import option
 from flexcage.core.wings import CAGE_TYPES, Parts
-
-if TYPE_CHECKING:
-    from flexcage.geometry.cage import Cage
+from flexcage.geometry.bearing import Bearing
+from flexcage.geometry.cage import Cage
 
 Spec = type  # by another name, for inside a defect ``type`` is a field
 Finding = tuple[str, str, object]  # where, sentence, value
@@ -78,11 +77,6 @@ class CageDefect:
 
     type: str = option(doc="kind of defect", choices=DEFECTS, elsewhere=_NO_DEFECTS)
 
-    if TYPE_CHECKING:
-
-        def __getattr__(self, name: str) -> Any:  # values of its own kind
-            ...
-
     @property
     def number(self) -> int:
         """Number of its part."""
@@ -139,6 +133,28 @@ class CageDefect:
                 f"0 to {count - 1}.",
                 self.number,
             )
+
+    @classmethod
+    def check_all(
+        cls, defects: Sequence[Any], cage: Cage, *, pocket_count: int, pitch_diameter: float,
+        element_diameter: float = 0.0,
+    ) -> None:  # fmt: skip
+        """Raise InputError for defects that a sound cage of these dimensions cannot have, in a
+        bearing whose elements have this pitch circle [m] and diameter [m] (0: any)."""
+        check_each(defects, cage, pocket_count)
+
+    @classmethod
+    def interference(
+        cls, defects: Sequence[Any], cage: Cage, bearing: Bearing
+    ) -> Iterator[tuple[str, str]]:
+        """Where, and in a sentence, defects leave an element less room than any assembly can
+        take."""
+        return iter(())
+
+    @classmethod
+    def by_chance(cls, cage: Cage, pocket_count: int, seed: int) -> tuple[CageDefect, ...]:
+        """Defects that make a cage's pockets uneven, drawn at random; none if they are even."""
+        return ()
 
     @classmethod
     def check_together(cls, own: Sequence[Any], count: int) -> Iterator[Finding]:
@@ -219,6 +235,12 @@ def refuse_foreign(defects: Sequence[CageDefect], cage_type: str) -> None:
                 where=f"defects.{i}.type",
                 value=defect.type,
             )
+
+
+def defect_spec(cage: Cage) -> type[CageDefect]:
+    """What all defects of a cage are, by its type."""
+    spec: type[CageDefect] = CAGE_TYPES[cage.cage_type].defect_spec
+    return spec
 
 
 def check_each(defects: Sequence[CageDefect], cage: Cage, count: int) -> None:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
 from math import pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,6 +13,7 @@ from flexcage.geometry.bearing import Bearing
 from flexcage.render import marks, sheet
 from flexcage.render.damage import mark_spalls, mark_spots
 from flexcage.render.elements import race_loads, shown_faces
+from flexcage.render.instant import Instant
 from flexcage.render.scene import (
     Layer,
     View,
@@ -43,26 +42,6 @@ _FACE_COLOURS = (sheet.VERMILION, sheet.GREEN, sheet.PURPLE)
 
 
 Loads = tuple[tuple[float, float] | None, float]  # (F_y, F_z), and F_x [N] on the inner ring
-
-
-@dataclass(frozen=True)
-class Instant:
-    """What is drawn of one instant."""
-
-    time: float
-    element: str  # in words
-    position: np.ndarray  # (n, 3) x, r, psi
-    tilt: np.ndarray  # (n, 2) skew, tilt; zero without an axis
-    inner_load: np.ndarray  # (n,) N
-    outer_load: np.ndarray
-    pocket: Mapping[str, np.ndarray]  # by name of faces: (n,) N
-    cage_position: np.ndarray
-    cage_quaternion: np.ndarray
-    inner_position: np.ndarray
-    inner_angle: float
-    inner_speed: float
-    cage_speed: float
-    spots: Mapping[int, np.ndarray] = field(default_factory=dict)  # by element: direction (3,)
 
 
 def bearing_picture(

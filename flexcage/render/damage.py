@@ -11,7 +11,7 @@ from flexcage.render.shapes import Shapes, shapes_of
 
 if TYPE_CHECKING:
     from flexcage.geometry.bearing import Bearing
-    from flexcage.render.bearing_pictures import Instant
+    from flexcage.render.instant import Instant
     from flexcage.render.stage import Picture
 
 _LEAST_ARC = 0.02  # rad, half of what a spall is drawn with: a small one is seen

@@ -40,13 +40,12 @@ from flexcage.results.door import Arrays, read_zip
 from flexcage.results.repeating import pack, unpack
 
 FORMAT = 2
-READ = (1, 2)  # 1: shapes as they are, which a mesh that does not repeat has in 2 as well
 NAME = "cage.zip"  # in a run's folder
 SHARED = "cages"  # folder of a study, with one file for each distinct cage
 LARGE = ("mesh", "basis")  # groups left out where a run keeps no cage
 SAME = 1e-6  # of the largest displacement of a mode: what another processor's rounding may change
 _TEXT = "texts"
-_CHECKSUM = "checksum"  # of all arrays; an earlier flexcage wrote none
+_CHECKSUM = "checksum"  # of all arrays
 _TABLE = "info_"  # before the names of a mesh's arrays beside points and tetrahedra
 
 Groups = Mapping[str, Mapping[str, np.ndarray]]
@@ -144,10 +143,9 @@ def read_cage(path: Path) -> CageRecord:
     try:
         root, stored = read_zip(path)
         found = root.get("flexcage_cage")
-        if found in READ:
+        if found == FORMAT:
             kept = {kind: _with_texts(*group) for kind, group in stored.items()}
-            checksum = content_hash(kept)
-            if root.get(_CHECKSUM, checksum) != checksum:
+            if root.get(_CHECKSUM) != content_hash(kept):
                 raise ValueError("it was changed afterwards")
             groups = {kind: unpack(arrays) for kind, arrays in kept.items()}
             record = CageRecord(groups, str(root["digest"]))

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from math import degrees
 
 from flexcage.core.warning import RunWarning
-from flexcage.geometry.bearing import RingLimit
-from flexcage.geometry.cage import Cage
+from flexcage.geometry.cage import Cage, RingLimit
 
 MOST_OFF = 0.1  # of the largest displacement
 #: Largest error of displacements that are linear in the modes, over the rotation [rad] of the

@@ -200,8 +200,7 @@ class MemoryRunStore:
     def loads(self, block: int) -> dict[str, np.ndarray]:
         """What moves and pushes a flexible cage at steps of a block, a table: ``time`` [s],
         ``modes``, ``land`` [N], the rows ``touched`` of each step, and of these ``face`` (its
-        pocket and number) and ``force`` [N]. Empty for a rigid cage, and for a run that an earlier
-        flexcage made."""
+        pocket and number) and ``force`` [N]. Empty for a rigid cage."""
         table = self._block_table(LOADS, block)
         return {**table, "modes": table["modes"].astype(float)} if table else {}
 

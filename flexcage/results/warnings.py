@@ -105,10 +105,10 @@ def to_text(warnings: Iterable[RunWarning]) -> str:
 
 
 def from_attrs(attrs: Mapping[str, Any]) -> tuple[RunWarning, ...]:
-    """Those that a run's store holds from its start; none in one of an earlier flexcage."""
+    """Those that a run's store holds from its start."""
     try:
-        return tuple(RunWarning(**values) for values in json_of(attrs.get("warnings", "[]")))
-    except (TypeError, ValueError) as error:
+        return tuple(RunWarning(**values) for values in json_of(attrs["warnings"]))
+    except (KeyError, TypeError, ValueError) as error:
         raise InputError(
             f"The warnings that the run's results hold cannot be read ({error}); bring the folder "
             "back from a copy, or run the case again.",

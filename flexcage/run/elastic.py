@@ -11,12 +11,12 @@ from flexcage.modes.rotation import sector_rotations
 from flexcage.results.elastic import ElasticShape
 
 if TYPE_CHECKING:
-    from flexcage.run.run import Run
+    from flexcage.run.record import RunRecord
 
 _HARDLY = 0.01  # of the cage's width: stations that moved less far turned by no more
 
 
-def elastic_shape(run: Run) -> ElasticShape:
+def elastic_shape(run: RunRecord) -> ElasticShape:
     """Of all samples; nothing where a cage is rigid or hardly deforms."""
     cage, stiffened = run.cage, run.case.modes.geometric_stiffening
     if cage is None:

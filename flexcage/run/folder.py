@@ -118,10 +118,10 @@ def _check_physics(folder: Path, store: RunStore, allowed: bool) -> None:
     """Refuse, or note, that a run is gone on with by sources other than those it has so far."""
     seams = store.seams
     before = seams[-1] if seams else store.layout.attrs
-    if before.get("physics") == physics():
+    if before["physics"] == physics():
         return
-    by = f"flexcage {before.get('version', 'of an earlier version')}"
-    if before.get("version") == __version__:
+    by = f"flexcage {before['version']}"
+    if before["version"] == __version__:
         by = f"another state of flexcage {__version__}"
     if not allowed:
         raise InputError(
@@ -130,7 +130,7 @@ def _check_physics(folder: Path, store: RunStore, allowed: bool) -> None:
             "another model. Go on with the one that began it, run the case again, or take "
             "--other-version (in Python, other_version=True), which summary and report then say.",
             where="resume",
-            value=before.get("physics"),
+            value=before["physics"],
         )
     store.go_on_by(__version__, physics())
     log.warning("%s", seam_warnings(store)[-1].text)
@@ -139,7 +139,7 @@ def _check_physics(folder: Path, store: RunStore, allowed: bool) -> None:
 def seam_warnings(store: MemoryRunStore) -> list[RunWarning]:
     """Where a run was gone on with by another flexcage, or an edited one."""
     found, attrs, t = [], store.layout.attrs, store.layout.coords["time"][1]
-    before = attrs.get("version", "an earlier one")
+    before = attrs["version"]
     for seam in store.seams:
         at = min(seam["sample"], len(t)) - 1
         when = f"{1e3 * t[at]:.6g} ms" if at >= 0 else "its beginning"

@@ -22,10 +22,10 @@ from flexcage.system.bodies import loads_over
 if TYPE_CHECKING:
     from flexcage.render.look import Look
     from flexcage.report.run_page import RunAccount
-    from flexcage.run.run import Run
+    from flexcage.run.summarised import SummarisedRun
 
 
-def picture_names_of(run: Run) -> list[str]:
+def picture_names_of(run: SummarisedRun) -> list[str]:
     """Names of the run's pictures."""
     part = settled(run.dataset, run.case.output.settle)
     names = album.picture_names(
@@ -35,7 +35,7 @@ def picture_names_of(run: Run) -> list[str]:
 
 
 def draw_pictures(
-    run: Run, folder: Path, *, animate: bool, look: Look, only: Sequence[str], format: str
+    run: SummarisedRun, folder: Path, *, animate: bool, look: Look, only: Sequence[str], format: str
 ) -> list[Path]:
     """Draw the run's pictures, or only some: paths of the files. InputError for a name that is
     none, before anything is computed."""
@@ -54,7 +54,7 @@ def draw_pictures(
     return [*paths, *draw_rings(run, folder, rings)] if rings else paths
 
 
-def scene_of(run: Run, *, animate: bool = False, stress: bool = True) -> Scene:
+def scene_of(run: SummarisedRun, *, animate: bool = False, stress: bool = True) -> Scene:
     """What pictures and reports show of the run; ``animate`` adds an animation's frames, and
     without ``stress`` that of a flexible cage is left out."""
     case, load = run.case, run.case.load
@@ -75,7 +75,7 @@ def scene_of(run: Run, *, animate: bool = False, stress: bool = True) -> Scene:
     )
 
 
-def _stress_pictures(run: Run, animate: bool) -> StressPictures:
+def _stress_pictures(run: SummarisedRun, animate: bool) -> StressPictures:
     history, peak = run.stress_history, run.stress()
     envelope = np.zeros(len(run.mesh.points))
     envelope[history.surface] = history.envelope
@@ -106,7 +106,7 @@ def _stress_pictures(run: Run, animate: bool) -> StressPictures:
     )
 
 
-def account_of(run: Run, images: Sequence[Path], no_images: str) -> RunAccount:
+def account_of(run: SummarisedRun, images: Sequence[Path], no_images: str) -> RunAccount:
     """What the run's page tells; ``no_images`` says why there are none."""
     from flexcage.report.run_page import RunAccount
 

@@ -9,9 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from flexcage.core.errors import InputError
 from flexcage.results.metrics import settled
-from flexcage.stages import bent_rings
 from flexcage.static import draw_ring
 from flexcage.stress.series import samples_near
 from flexcage.system.rings_in_motion import SIDES
@@ -19,21 +17,10 @@ from flexcage.system.statics.rings import BentRing, SeatedRing
 
 if TYPE_CHECKING:
     from flexcage.case import Case
-    from flexcage.run.run import Run
+    from flexcage.run.record import RunRecord
 
 
-def seated_rings(run: Run) -> tuple[SeatedRing, ...]:
-    """The rings of the run's case that bend, reduced again; InputError if both are rigid."""
-    if "ring_load" not in run.dataset:
-        raise InputError(
-            "both rings of the run are rigid; run the case with outer_ring.ring or inner_ring.ring "
-            "= 'flexible'",
-            where="outer_ring.ring",
-        )
-    return tuple(ring.seated for ring in bent_rings(run.case))
-
-
-def rings_at(run: Run, time: float | str | None) -> tuple[float, tuple[BentRing, ...]]:
+def rings_at(run: RunRecord, time: float | str | None) -> tuple[float, tuple[BentRing, ...]]:
     """Time [s] of the sample nearest to ``time``, by default that of the largest deflection of the
     settled part, and the rings then."""
     seated, ds = run.seated_rings, run.dataset
@@ -70,7 +57,7 @@ def ring_pictures(case: Case) -> list[str]:
     return [f"{side}_ring" for side, ring in bends if ring.bends]
 
 
-def draw_rings(run: Run, folder: Path, names: Sequence[str]) -> list[Path]:
+def draw_rings(run: RunRecord, folder: Path, names: Sequence[str]) -> list[Path]:
     """Pictures of these names of the rings that bend, when they yield most."""
     time, rings = rings_at(run, None)
     when, case = f"at {1e3 * time:.2f} ms", run.case.name

@@ -23,7 +23,7 @@ from flexcage.system.bodies import unbalance_of
 
 if TYPE_CHECKING:
     from flexcage.geometry.cage import Cage
-    from flexcage.run.run import Run
+    from flexcage.run.record import RunRecord
 
 # measured on pinched pockets of an N1013, in tests/verification/test_pinch.py
 _FAR = (
@@ -33,7 +33,7 @@ _FAR = (
 _NO_TIME = 1e-3  # s: a stage that is shorter had nothing to do
 
 
-def summary_of(run: Run, *, stress: bool = True) -> Summary:
+def summary_of(run: RunRecord, *, stress: bool = True) -> Summary:
     """Figures of a run; without ``stress`` the cage's is left out where it surely stays below the
     proof stress."""
     case, friction = run.case, run.case.contacts.race.friction
@@ -60,7 +60,7 @@ def summary_of(run: Run, *, stress: bool = True) -> Summary:
     return warned(timed(summary, run), run)
 
 
-def with_stress(summary: Summary, run: Run) -> Summary:
+def with_stress(summary: Summary, run: RunRecord) -> Summary:
     """The summary with stress behind the cage's figures."""
     summary = summary.with_figures(run.stress_rows(), after="cage_mass")
     if not run.case.riveted:
@@ -68,7 +68,7 @@ def with_stress(summary: Summary, run: Run) -> Summary:
     return summary.with_figures(run.rivets.rows(), after="stress_peak")
 
 
-def warned(summary: Summary, run: Run) -> Summary:
+def warned(summary: Summary, run: RunRecord) -> Summary:
     """The summary with its warnings."""
     case = run.case
     known = (*from_attrs(run.dataset.attrs), *seam_warnings(run.store))
@@ -87,14 +87,14 @@ def warned(summary: Summary, run: Run) -> Summary:
     return dataclasses.replace(summary, warnings=(*known, *warnings_of(AT_END, outcome)))
 
 
-def timed(summary: Summary, run: Run) -> Summary:
+def timed(summary: Summary, run: RunRecord) -> Summary:
     """The summary with the wall times of all stages so far."""
     rows = [figure(f"wall_{k}", v, idle=v < _NO_TIME) for k, v in run.stages.items()]
     total = figure("wall_total", run.stages.total)
     return summary.with_section(KNOWN[total.key].section, [*rows, total])
 
 
-def _cage_rows(run: Run) -> list[Row]:
+def _cage_rows(run: RunRecord) -> list[Row]:
     cage, start = run.case.cage, run.start
     report = report_mesh(run.mesh, density=cage.material.density)
     mass, centre, note = report.volume * cage.material.density, report.mass_centre, ""

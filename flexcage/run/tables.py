@@ -12,14 +12,14 @@ from flexcage.results.registry import TIME
 if TYPE_CHECKING:
     import xarray
 
-    from flexcage.run.run import Run
+    from flexcage.run.record import RunRecord
 
 #: What columns of the solver's steps are called in a table, and units.
 _STEPS = {"time": ("step_time", "s"), "step": ("step_size", "s")}
 
 
 def write_table(
-    run: Run, path: Path, variables: Sequence[str] | str | None = None, *, force: bool = False
+    run: RunRecord, path: Path, variables: Sequence[str] | str | None = None, *, force: bool = False
 ) -> list[Path]:
     """Write variables of a run, see ``Run.write_table``."""
     export.check_ending(path)  # before anything is computed
@@ -28,7 +28,7 @@ def write_table(
     return export.write_table(ds, path, names, force=force)
 
 
-def _tabled(run: Run, names: Sequence[str] | None) -> tuple[xarray.Dataset, list[str] | None]:
+def _tabled(run: RunRecord, names: Sequence[str] | None) -> tuple[xarray.Dataset, list[str] | None]:
     """A dataset that holds variables of a run by these names, and what they are called in it."""
     ds = run.dataset
     if names is None:
@@ -45,7 +45,7 @@ def _tabled(run: Run, names: Sequence[str] | None) -> tuple[xarray.Dataset, list
     return ds, found
 
 
-def _stress(run: Run) -> dict[str, Any]:
+def _stress(run: RunRecord) -> dict[str, Any]:
     import xarray
 
     history = run.stress_history
@@ -54,20 +54,20 @@ def _stress(run: Run) -> dict[str, Any]:
     return {"stress": xarray.DataArray(history.places, names, (TIME, "place"), attrs=told)}
 
 
-def _stress_peak(run: Run) -> dict[str, Any]:
+def _stress_peak(run: RunRecord) -> dict[str, Any]:
     told = {"units": "Pa", "long_name": "largest equivalent stress of the cage off flat walls"}
     return {"stress_peak": (TIME, run.stress_history.peak, told)}
 
 
-def _film(run: Run) -> dict[str, Any]:
+def _film(run: RunRecord) -> dict[str, Any]:
     return {"film_thickness": run.film_thickness}
 
 
-def _events(run: Run) -> dict[str, Any]:
+def _events(run: RunRecord) -> dict[str, Any]:
     return {f"event_{name}": v.variable for name, v in run.events.data_vars.items()}
 
 
-def _steps(run: Run) -> dict[str, Any]:
+def _steps(run: RunRecord) -> dict[str, Any]:
     found = {}
     for column, values in run.steps.items():
         name, unit = _STEPS.get(column, (f"step_{column}", "1"))
@@ -76,7 +76,7 @@ def _steps(run: Run) -> dict[str, Any]:
 
 
 #: What a run has beside its dataset, by name: the variables that it becomes.
-BESIDE: Mapping[str, Callable[[Run], dict[str, Any]]] = {
+BESIDE: Mapping[str, Callable[[RunRecord], dict[str, Any]]] = {
     "stress": _stress,
     "stress_peak": _stress_peak,
     "film_thickness": _film,

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from flexcage.core.errors import InputError
 from flexcage.modes.interface import LAND_STATIONS
 from flexcage.stress.recovery import CageLoads
 
@@ -17,20 +16,10 @@ if TYPE_CHECKING:
 LANDS = "land_station_force"
 
 
-def _with_lands(ds: xarray.Dataset) -> xarray.Dataset:
-    if LANDS not in ds:
-        raise InputError(
-            f"The run has no variable '{LANDS}', which stress needs: an earlier flexcage made it; "
-            "run the case again.",
-            where=LANDS,
-        )
-    return ds
-
-
 def land_station_forces(ds: xarray.Dataset, *, inner: bool) -> np.ndarray:
     """Land forces of every sample (nt, 2, n_land, 3) on the stations of the inner and the outer
     land, components (x, r, psi)."""
-    return on_lands(_with_lands(ds)[LANDS].values, inner=inner)
+    return on_lands(ds[LANDS].values, inner=inner)
 
 
 def on_lands(force: np.ndarray, *, inner: bool) -> np.ndarray:
@@ -49,7 +38,7 @@ class LandForces:
     """``land_station_forces`` of a recorded run, sample by sample as they are asked for."""
 
     def __init__(self, ds: xarray.Dataset, *, inner: bool) -> None:
-        self._recorded = _with_lands(ds)[[LANDS]].load()
+        self._recorded = ds[[LANDS]].load()
         self._inner = inner
 
     def __len__(self) -> int:

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +20,7 @@ from flexcage.core.hashing import content_hash, sealed
 from flexcage.core.writing import check_name
 from flexcage.study.axes import Axis, Point
 from flexcage.study.origin import this_one
-from flexcage.study.plan import Plan, Planned, points_of
+from flexcage.study.plan import Plan, Planned
 from flexcage.study.spec import FORMAT, Repeat, Study, stored_axes, stored_repeat, stored_table
 
 _NAMED = 3  # edits that a sentence names
@@ -42,7 +41,6 @@ class About:
     assumptions: Mapping[str, tuple[str, str]]  # by path: value and reason
     text: str  # study.toml as it was planned
     edited: str = ""  # how study.toml was changed since
-    sure: bool = True  # False: an earlier flexcage kept no values beside the hashes
 
 
 def to_store(plan: Plan) -> dict[str, Any]:
@@ -54,11 +52,11 @@ def to_store(plan: Plan) -> dict[str, Any]:
         "study": plan.study.to_toml(),
         "points": [{"values": plain(p.values), "labels": dict(p.labels)} for p in points.values()],
         "cases": [[c.number, c.repetition, c.hash] for c in plan.cases],
-        **base_of(plan.study),
+        **_base_of(plan.study),
     })  # fmt: skip
 
 
-def base_of(study: Study) -> dict[str, Any]:
+def _base_of(study: Study) -> dict[str, Any]:
     """What of the base case tables and pages want, as plain JSON values."""
     paths = (path for axis in study.axes for path in axis.paths)
     return {
@@ -82,8 +80,7 @@ def key_of(cases: Sequence[Planned]) -> str:
 
 def from_store(file: Path, stored: Mapping[str, Any]) -> tuple[About, tuple[Planned, ...]]:
     """What a study's plan.json says, and its cases; ``file`` is the folder's study.toml."""
-    known = "study" in stored
-    text = stored["study"] if known else file.read_text("utf-8")
+    text = stored["study"]
     table = stored_table(file, text)
     about = About(
         name=str(table.get("name", "study")),
@@ -96,25 +93,12 @@ def from_store(file: Path, stored: Mapping[str, Any]) -> tuple[About, tuple[Plan
         in_words=tuple(map(str, stored["in_words"])),
         assumptions={path: (value, why) for path, (value, why) in stored["assumptions"].items()},
         text=text,
-        edited=_edit(file, text, table) if known else "",
-        sure=known,
+        edited=_edit(file, text, table),
     )
-    hashes = [c[2] for c in stored["cases"]] if known else stored["hashes"]
-    for name in hashes:
+    for _, _, name in stored["cases"]:
         check_name(name, f"The hash of a case in '{file.with_name('plan.json')}'")
-    if not known:
-        return about, _by_position(about, hashes)
     points = [Point(p["values"], p["labels"]) for p in stored["points"]]
     return about, tuple(Planned(n, points[n], k, h) for n, k, h in stored["cases"])
-
-
-def _by_position(about: About, hashes: list[str]) -> tuple[Planned, ...]:
-    """The cases of a plan that an earlier flexcage kept: hashes alone, in the order of study.toml.
-
-    Whether they are still that study's, ``results`` checks by the cases' own texts.
-    """
-    places = product(enumerate(points_of(about.axes)), range(about.repeat.count))
-    return tuple(Planned(n, point, k, h) for ((n, point), k), h in zip(places, hashes, strict=True))
 
 
 def _edit(file: Path, text: str, planned: Mapping[str, Any]) -> str:

@@ -161,7 +161,7 @@ def converge(
 
 def _check_physics(wanted: Collection[str], cases: Path, *, allowed: bool) -> None:
     """Refuse, or say, that runs would be compared with those of other physics."""
-    done = [cases / name for name in wanted if (cases / name / "summary.json").exists()]
+    done = [cases / name for name in wanted if _is_done(cases / name)]
     new = len(wanted) - len(done)
     mixed = check_origins(map(_origin_of, done), new=new, folder=cases.parent, allowed=allowed)
     if mixed:
@@ -171,7 +171,7 @@ def _check_physics(wanted: Collection[str], cases: Path, *, allowed: bool) -> No
 def _run_all(wanted: dict[str, Level], folder: Path, progress: Any) -> dict[str, Summary | str]:
     """Summary of every case by its hash, or the sentence of the error that stopped it."""
     figures: dict[str, Summary | str] = {}
-    new = [name for name in wanted if not (folder / name / "summary.json").exists()]
+    new = [name for name in wanted if not _is_done(folder / name)]
     begin, ran = time.perf_counter(), 0
     for name, level in wanted.items():
         if name in new:
@@ -189,13 +189,12 @@ def _run_all(wanted: dict[str, Level], folder: Path, progress: Any) -> dict[str,
 def _figures_of(case: Case, folder: Path, progress: Any) -> Summary:
     """Summary of a case with the windows of its statistics; simulated if it is not there. What
     another flexcage computed has a warning that says so."""
-    stored, kept = folder / "summary.json", folder / "windows.npz"
-    if stored.exists():
-        windows = load(kept) if kept.exists() else {}
-        return Summary.read(stored, windows=windows)
+    kept = folder / "windows.npz"
+    if _is_done(folder):
+        return Summary.read(folder / "summary.json", windows=load(kept))
     summary = run_in(folder, case, progress=progress).summary
-    replace(folder / _ORIGIN, json.dumps(this_one().to_store()).encode())
     save(kept, {row.key: row.record.sums for row in summary if row.record is not None})
+    replace(folder / _ORIGIN, json.dumps(this_one().to_store()).encode())
     return summary
 
 
@@ -232,25 +231,35 @@ def _compare(
     )
 
 
+def _is_done(folder: Path) -> bool:
+    """Is a run complete, with the windows of its statistics? Its origin is written last."""
+    return (folder / _ORIGIN).exists()
+
+
 def _origin_of(folder: Path) -> Origin:
-    """Which flexcage computed the run in a folder, as far as anybody knows."""
+    """Which flexcage computed the run in a folder; InputError where its file does not say."""
+    path = folder / _ORIGIN
     try:
-        return stored_origin(read_json(folder / _ORIGIN))
-    except (OSError, ValueError, AttributeError):
-        return Origin()
+        return stored_origin(read_json(path))
+    except (OSError, ValueError, KeyError, TypeError) as exc:
+        raise InputError(
+            f"'{path}' does not say which flexcage computed the run beside it; remove it to "
+            "compute the run anew.",
+            where="origin",
+            value=str(path),
+        ) from exc
 
 
 def _by_another(folder: Path) -> list[RunWarning]:
-    """A warning if another flexcage computed the run in a folder, or if nobody knows which."""
+    """A warning if another flexcage computed the run in a folder."""
     origin = _origin_of(folder)
     if origin == this_one():
         return []
-    who = f"flexcage {origin}" if origin.version else "a flexcage that kept no version"
     sentence = (
-        f"{who} computed this run, and this is flexcage {this_one()}: results may differ between "
-        f"them. Remove '{folder}' to compute it anew."
+        f"Flexcage {origin} computed this run, and this is flexcage {this_one()}: results may "
+        f"differ between them. Remove '{folder}' to compute it anew."
     )
-    return [RunWarning("version", sentence[0].upper() + sentence[1:])]
+    return [RunWarning("version", sentence)]
 
 
 def _findings(level: Level, finest: Level, figures: dict[str, Summary | str]) -> list[Finding]:

@@ -34,7 +34,7 @@ from flexcage.core.output_folders import check_study
 from flexcage.core.reading import read_json
 from flexcage.core.warning import RunWarning
 from flexcage.core.writing import check_own, replace, sync
-from flexcage.study.about import About, base_of, from_store, to_store
+from flexcage.study.about import About, from_store, to_store
 from flexcage.study.origin import Origin, stored_origin
 from flexcage.study.outputs import Figure
 from flexcage.study.plan import Plan, Planned
@@ -58,19 +58,16 @@ class Failure:
 
 @dataclass(frozen=True)
 class CaseRow:
-    """What is known of one finished case: ``seconds`` of processor time that it took, and
-    ``warnings``, None where nobody looked for any.
-
-    ``values`` are those that the study's axes gave it, by path; None where an earlier flexcage kept
-    none.
-    """
+    """What is known of one finished case: ``seconds`` of processor time that it took, ``warnings``
+    of its run, ``values`` that the study's axes gave it, by path, and the flexcage that computed
+    it."""
 
     hash: str
     seconds: float
     figures: Mapping[str, Figure]
-    warnings: tuple[RunWarning, ...] | None = None
-    values: Mapping[str, Any] | None = None
-    origin: Origin = Origin()
+    warnings: tuple[RunWarning, ...]
+    values: Mapping[str, Any]
+    origin: Origin
 
 
 class Folder:
@@ -114,8 +111,6 @@ class Folder:
         file = self._text_file()
         try:
             plan = read_json(self.path / "plan.json")
-            if isinstance(plan, list):  # of an earlier flexcage: hashes alone
-                plan = {"hashes": plan, **base_of(self.study())}
             if not seal_holds(plan):
                 raise ValueError("its seal is broken")
             check_format(plan.get("format", FORMAT), self.path / "plan.json")
@@ -192,12 +187,9 @@ class Folder:
             if stored["hash"] != name:
                 raise _lacks(path, f"the figures of this case but of {stored['hash']}")
             figures = {key: Figure(*values) for key, values in stored["figures"].items()}
-            warned = stored.get("warnings")
-            warnings = None if warned is None else tuple(RunWarning(*values) for values in warned)
-            return CaseRow(
-                name, stored["seconds"], figures, warnings,
-                stored.get("values"), stored_origin(stored.get("origin")),
-            )  # fmt: skip
+            warnings = tuple(RunWarning(*values) for values in stored["warnings"])
+            origin = stored_origin(stored["origin"])
+            return CaseRow(name, stored["seconds"], figures, warnings, stored["values"], origin)
         except _NOT_THERE as exc:
             raise _lacks(path, "the figures of a case") from exc
 
@@ -213,11 +205,11 @@ class Folder:
     def write_row(self, where: Path, row: CaseRow) -> None:
         """Write a case's row into the folder ``where`` of its run."""
         figures = {k: [f.value, f.unit, f.shown, f.margin] for k, f in row.figures.items()}
-        stored = {"format": FORMAT, "hash": row.hash, "seconds": row.seconds, "figures": figures}
-        if row.warnings is not None:
-            stored["warnings"] = [[w.key, w.text] for w in row.warnings]
-        if row.values is not None:
-            stored |= {"values": dict(row.values), "origin": row.origin.to_store()}
+        stored = {
+            "format": FORMAT, "hash": row.hash, "seconds": row.seconds, "figures": figures,
+            "warnings": [[w.key, w.text] for w in row.warnings],
+            "values": dict(row.values), "origin": row.origin.to_store(),
+        }  # fmt: skip
         _write_json(where / _ROW, sealed(stored))
 
     def finish(self, name: str) -> None:

@@ -197,7 +197,7 @@ class MapResults:
                 raise ValueError(f"format {self.about['format']}")
             if not seal_holds(self.about):
                 raise ValueError("it was edited")
-            if self.about.get("plan", key := key_of(self.study.planned)) != key:
+            if self.about["plan"] != key_of(self.study.planned):
                 raise ValueError("it belongs to other cases than plan.json")
         except (OSError, ValueError, KeyError, TypeError) as exc:
             raise InputError(

@@ -16,24 +16,21 @@ _SHOWN = 8  # digits of the physics' hash that a sentence shows
 
 @dataclass(frozen=True)
 class Origin:
-    """Version, and hash of the sources of physics (``core.sources.physics``); empty where an
-    earlier flexcage kept none."""
+    """Version, and hash of the sources of physics (``core.sources.physics``)."""
 
-    version: str = ""
-    physics: str = ""
+    version: str
+    physics: str
 
     def __str__(self) -> str:
-        known = self.physics[:_SHOWN] or "not kept"
-        return f"{self.version} (physics {known})" if self.version else ""
+        return f"{self.version} (physics {self.physics[:_SHOWN]})"
 
     def to_store(self) -> dict[str, str]:
         return asdict(self)
 
 
 def stored_origin(table: Any) -> Origin:
-    """The origin that a file holds, or one that is not known."""
-    known = table or {}
-    return Origin(str(known.get("version", "")), str(known.get("physics", "")))
+    """The origin that a file holds; KeyError or TypeError for none."""
+    return Origin(str(table["version"]), str(table["physics"]))
 
 
 def this_one() -> Origin:
@@ -42,22 +39,16 @@ def this_one() -> Origin:
 
 
 def told_apart(origins: Iterable[Origin]) -> str:
-    """A sentence if cases are not all of one flexcage, or of another than this one, or if nobody
-    knows; else nothing."""
+    """A sentence if cases are not all of one flexcage, or of another than this one; else
+    nothing."""
     found = list(origins)
     counts = Counter(map(str, found))
-    unknown, total = counts.pop("", 0), sum(counts.values())
-    if len(counts) + bool(unknown) > 1:
+    if len(counts) > 1:
         parts = [f"{count} by {name}" for name, count in counts.items()]
-        parts += [f"{unknown} by an earlier one that kept no version"] if unknown else []
         return (
             "Different versions of flexcage computed these cases: "
             f"{', '.join(parts)}. Results may differ between them; to have all by one, run the "
             "study in a new folder."
-        )
-    if unknown:
-        return (
-            f"Which version of flexcage computed the {unknown + total} finished cases is not known."
         )
     if found and not same_physics(found[0]):
         return (
@@ -79,7 +70,7 @@ def check_origins(origins: Iterable[Origin], *, new: int, folder: Any, allowed: 
     others = [origin for origin in found if not same_physics(origin)]
     if not others or not new:
         return ""
-    names = ", ".join(dict.fromkeys(str(o) or "an earlier one that kept none" for o in others))
+    names = ", ".join(dict.fromkeys(map(str, others)))
     text = (
         f"{len(others)} of the {len(found)} finished cases in '{folder}' were computed by flexcage "
         f"{names}, and this is {this_one()}: with the {new} still to compute, one table would mix "

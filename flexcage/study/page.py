@@ -25,13 +25,13 @@ from flexcage.study.page_tables import (
 from flexcage.study.words import in_words
 
 if TYPE_CHECKING:
-    from flexcage.study.results import StudyResults
+    from flexcage.study.record import StudyRecord
 
 _MOST_FAILURES = 20  # reasons written out
 
 
 def write_study_page(
-    results: StudyResults,
+    results: StudyRecord,
     path: str | Path,
     *,
     points: Sequence[int] | None = None,
@@ -57,7 +57,7 @@ def write_study_page(
 
 
 def _account(
-    results: StudyResults, cages: list[Shown], images: list[Image], chosen: str
+    results: StudyRecord, cages: list[Shown], images: list[Image], chosen: str
 ) -> StudyAccount:
     study, folder = results.about, results.folder.path
     return StudyAccount(
@@ -84,7 +84,7 @@ def _account(
     )
 
 
-def _varied(results: StudyResults) -> list[str]:
+def _varied(results: StudyRecord) -> list[str]:
     study, count = results.about, len(first_rows(results))
     paths = [path for axis in study.axes for path in axis.paths]
 
@@ -143,7 +143,7 @@ def _change(defect: Mapping[str, Any]) -> str:
     return f"{str(defect['type']).replace('_', ' ')}: {', '.join(rest)}"
 
 
-def _warnings(results: StudyResults) -> list[str]:
+def _warnings(results: StudyRecord) -> list[str]:
     names = point_names(results)
     lines = [
         f"Point {r.planned.number}, repetition {r.planned.repetition} "

@@ -20,7 +20,7 @@ from flexcage.study.page_tables import point_names, stored_figure
 from flexcage.study.spec import uses
 
 if TYPE_CHECKING:
-    from flexcage.study.results import ResultRow, StudyResults
+    from flexcage.study.record import ResultRow, StudyRecord
 
 MOST = 6  # points whose stress is shown
 
@@ -34,7 +34,7 @@ class Shown:
     peak_place: str
 
 
-def to_show(results: StudyResults, points: Sequence[int] | None) -> tuple[list[ResultRow], str]:
+def to_show(results: StudyRecord, points: Sequence[int] | None) -> tuple[list[ResultRow], str]:
     """First finished case with stress of the points to show, and a sentence on the choice."""
     done = [row for row in results.rows if row.state == "done"]
     kept_runs = [row for row in done if results.folder.has_run(row.planned.hash)]
@@ -69,7 +69,7 @@ def to_show(results: StudyResults, points: Sequence[int] | None) -> tuple[list[R
 
 
 def stress_of(
-    results: StudyResults, rows: list[ResultRow], progress: Callable[..., Any] | None
+    results: StudyRecord, rows: list[ResultRow], progress: Callable[..., Any] | None
 ) -> tuple[list[Shown], str]:
     """Stress of these cases; a sentence on why there is none, if they need files of the user's own
     that are not loaded."""

@@ -18,7 +18,7 @@ from flexcage.study.outputs import Figure, never_negative
 from flexcage.study.words import in_words
 
 if TYPE_CHECKING:
-    from flexcage.study.results import ResultRow, StudyResults
+    from flexcage.study.record import ResultRow, StudyRecord
 
 MOST_ROWS = 1000  # of a table of cases
 _NONE = "–"
@@ -27,12 +27,12 @@ _NO_FIGURE = (
 )
 
 
-def first_rows(results: StudyResults) -> list[ResultRow]:
+def first_rows(results: StudyRecord) -> list[ResultRow]:
     """The first case of every point, in order."""
     return list({row.planned.number: row for row in reversed(results.rows)}.values())[::-1]
 
 
-def heads(results: StudyResults) -> dict[str, str]:
+def heads(results: StudyRecord) -> dict[str, str]:
     """In words, with their units: what the tables of a study call its axes by paths."""
     about = results.about
     paths = [path for axis in about.axes for path in axis.paths]
@@ -44,7 +44,7 @@ def heads(results: StudyResults) -> dict[str, str]:
     return found
 
 
-def point_names(results: StudyResults) -> list[str]:
+def point_names(results: StudyRecord) -> list[str]:
     """What a reader calls every point: its labels and the values that vary."""
     words = heads(results)
     return [
@@ -69,7 +69,7 @@ def _title(output: str) -> str:
     return KNOWN[output].title if output in KNOWN else output
 
 
-def _titles(results: StudyResults) -> dict[str, str]:
+def _titles(results: StudyRecord) -> dict[str, str]:
     """Title of every output, with the unit that it is shown in."""
     units = {name: _unit(results.known.get(name)) for name in results.about.outputs}
     return {name: _headed(_title(name), unit) for name, unit in units.items()}
@@ -89,7 +89,7 @@ def _factor(figure: Figure | None) -> float:
     return SHOWN[figure.shown][1] if figure else 1.0
 
 
-def statistics_table(results: StudyResults) -> Table:
+def statistics_table(results: StudyRecord) -> Table:
     """A row a point: what varies, how many runs, and every output's mean and interval."""
     titles, frame = _titles(results), results.statistics
     axes = list(results.axes_of(results.rows[0].planned))
@@ -117,14 +117,14 @@ def _value_cell(value: Any) -> Cell:
     return number(value, _short(value)) if isinstance(value, (int, float)) else Cell(str(value))
 
 
-def _mean_cell(results: StudyResults, name: str, mean: Any, half: float) -> Cell:
+def _mean_cell(results: StudyRecord, name: str, mean: Any, half: float) -> Cell:
     if not isinstance(mean, (int, float)) or not isfinite(mean):
         return Cell(_NONE)
     shown = results.known[name].shown if name in results.known else ""
     return number(float(mean), " ".join(format_value(float(mean), shown, half)).rstrip())
 
 
-def cases_table(results: StudyResults) -> Table:
+def cases_table(results: StudyRecord) -> Table:
     """A row a case: what varies, its outputs, and what became of it."""
     titles = _titles(results)
     rows = []
@@ -144,7 +144,7 @@ def cases_table(results: StudyResults) -> Table:
     return filled(Table(head, rows, f"{_share(results)} Runs lie in the folder cases."))
 
 
-def _share(results: StudyResults) -> str:
+def _share(results: StudyRecord) -> str:
     """Which of the cases a table holds."""
     if len(results.rows) <= MOST_ROWS:
         return "All cases."
@@ -157,14 +157,14 @@ def _cell(figure: Figure | None, key: str = "") -> Cell:
     return figure_cell(Row(key, "", figure.value, figure.shown, margin=figure.margin))
 
 
-def stored_figure(results: StudyResults, row: ResultRow, key: str) -> Any:
+def stored_figure(results: StudyRecord, row: ResultRow, key: str) -> Any:
     """Any figure of a finished case's summary, in SI; None if it has none."""
     stored = results.stored.get(row.planned.hash)
     figure = stored.figures.get(key) if stored else None
     return None if figure is None else figure.value
 
 
-def audit_table(results: StudyResults) -> Table:
+def audit_table(results: StudyRecord) -> Table:
     """Energy audit and the solver's work, a row a finished case."""
     rows, keys = [], marked(EFFORT)
     for r in results.rows[:MOST_ROWS]:
@@ -179,7 +179,7 @@ def audit_table(results: StudyResults) -> Table:
     return filled(Table(("point", "repetition", *heads), rows, caption))
 
 
-def outputs(results: StudyResults) -> list[Output]:
+def outputs(results: StudyRecord) -> list[Output]:
     """Means and intervals of every output at every point, in the units that they are shown in."""
     frame = results.statistics
     found = []
@@ -196,7 +196,7 @@ def _float(value: Any) -> float:
     return float(value) if isinstance(value, (int, float)) else nan
 
 
-def abscissas(results: StudyResults) -> list[Abscissa]:
+def abscissas(results: StudyRecord) -> list[Abscissa]:
     """One for every axis, or for every range of a sampled axis; other axes make groups."""
     rows, axes = first_rows(results), results.about.axes
     values = [results.axes_of(row.planned) for row in rows]

@@ -20,7 +20,7 @@ import numpy as np
 from flexcage.core.errors import InputError
 from flexcage.core.reading import read_json, table_of
 from flexcage.core.writing import replace
-from flexcage.study.results import mean_and_half_width
+from flexcage.study.record import mean_and_half_width
 
 FORMAT = 1
 FILE = "verdicts.json"

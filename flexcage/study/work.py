@@ -49,7 +49,7 @@ class Order:
     stress: bool  # whether any output needs the cage's
     use: tuple[str, ...]  # extensions to load
     keep: str
-    values: Mapping[str, Any] = field(default_factory=dict)  # that the study's axes gave, by path
+    values: Mapping[str, Any]  # that the study's axes gave, by path
     origin: Origin = field(default_factory=this_one)  # the flexcage that planned it
 
 

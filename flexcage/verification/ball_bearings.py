@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import pi, radians
-from typing import Any
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
@@ -17,26 +17,32 @@ from flexcage.system.statics.options import StaticOptions
 from flexcage.system.statics.solution import StaticSolution
 from flexcage.system.statics.solve import solve_bearing
 
+if TYPE_CHECKING:
+    from flexcage.bearings.ball import AngularContactBallBearing, DeepGrooveBallBearing
+
 RPM = pi / 30.0
 DEGREES = 180.0 / pi
 
 
-def preset(name: str) -> Any:
+def preset(name: str) -> AngularContactBallBearing:
     """Angular contact bearing of a preset."""
-    return load_preset(name).bearing
+    return cast("AngularContactBallBearing", load_preset(name).bearing)
 
 
-def deep_groove(clearance: float, *, ball: float = 11.5e-3, count: int = 7) -> Any:
+def deep_groove(
+    clearance: float, *, ball: float = 11.5e-3, count: int = 7
+) -> DeepGrooveBallBearing:
     """The deep groove bearing of a published set of ISO/TS 16281 cases, at a clearance [m]."""
     steel = Material(name="steel", youngs_modulus=210e9, poisson_ratio=0.3, density=7850.0)
-    return BEARING_TYPES["deep_groove_ball"](
+    spec: type[DeepGrooveBallBearing] = BEARING_TYPES["deep_groove_ball"]
+    return spec(
         bore=25e-3, outside_diameter=62e-3, width=17e-3, pitch_diameter=43.5e-3,
         ball_diameter=ball, ball_count=count, inner_groove_radius=0.52 * ball,
         outer_groove_radius=0.53 * ball, radial_clearance=clearance, material=steel,
     )  # fmt: skip
 
 
-def bearing_218() -> Any:
+def bearing_218() -> AngularContactBallBearing:
     """Harris's 218 angular contact bearing, 40 degrees, with this chapter's steel."""
     groove = 0.5232 * 22.225e-3
     return replace(

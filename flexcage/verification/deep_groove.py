@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 from flexcage.case import Case
-from flexcage.geometry.bearing import Bearing
 from flexcage.mesh.options import MeshOptions
 from flexcage.system.spec import Load
 
+if TYPE_CHECKING:
+    from flexcage.bearings.ball.bearing import BallBearing
 
-def case_of(bearing: Bearing, *tables: Mapping[str, object]) -> Case:
+
+def case_of(bearing: BallBearing, *tables: Mapping[str, object]) -> Case:
     """A bearing without weight in a rigid cage with 4 % of play; ``tables`` map dotted paths to
     text, later ones win."""
     ball, pitch = bearing.ball_diameter, bearing.pitch_diameter

@@ -7,18 +7,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from flexcage.cages.machined.defects import (
+from flexcage.cages.round_pocket.defects import (
     DisplacedPocket,
     ElongatedPocket,
     EnlargedPocket,
     WebCrack,
     pocket_shapes,
-    wall_reach,
-    web_thickness,
 )
+from flexcage.cages.round_pocket.shapes import wall_reach, web_thickness
 from flexcage.cages.window.defects import SideBeamDefect
 from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
+from flexcage.geometry.defect import defect_spec
 
 MM = 1e-3
 PRESET = load_preset("7603025")
@@ -27,8 +27,9 @@ Z = BEARING.ball_count
 
 
 def check(*defects):
-    CAGE.check_defects(
+    defect_spec(CAGE).check_all(
         defects,
+        CAGE,
         pocket_count=Z,
         pitch_diameter=BEARING.pitch_diameter,
         element_diameter=BEARING.ball_diameter,
@@ -172,14 +173,14 @@ def test_impossible_defects(defects, where, sentence):
 
 
 def test_uneven_pockets_are_random_by_their_seed_and_centred():
-    cage = replace(CAGE, pocket_scatter=20e-6)
+    cage, uneven = replace(CAGE, pocket_scatter=20e-6), defect_spec(CAGE).by_chance
     shifts = np.array([
-        [d.circumferential for d in cage.uneven_pockets(Z, seed)] for seed in range(200)
+        [d.circumferential for d in uneven(cage, Z, seed)] for seed in range(200)
     ])  # fmt: skip
     np.testing.assert_allclose(shifts.mean(axis=1), 0.0, atol=1e-12)
     assert shifts.std() == pytest.approx(20e-6 * np.sqrt(1 - 1 / Z), rel=0.03)
-    assert cage.uneven_pockets(Z, 3) == cage.uneven_pockets(Z, 3)
-    assert CAGE.uneven_pockets(Z, 3) == ()
+    assert uneven(cage, Z, 3) == uneven(cage, Z, 3)
+    assert uneven(CAGE, Z, 3) == ()
 
 
 def test_a_bearing_checks_its_cages_defects():

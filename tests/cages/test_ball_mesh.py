@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 from flexcage.cages.build import build_cage_mesh
-from flexcage.cages.machined.cage import BallCage
-from flexcage.cages.machined.defects import (
+from flexcage.cages.round_pocket.cage import BallCage
+from flexcage.cages.round_pocket.defects import (
     DisplacedPocket,
     ElongatedPocket,
     EnlargedPocket,
     WebCrack,
 )
-from flexcage.cages.machined.measure import crack_length, measure_pockets
+from flexcage.cages.round_pocket.measure import crack_length, measure_pockets
 from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
 from flexcage.mesh.cage_mesh import CageMesh, group_names

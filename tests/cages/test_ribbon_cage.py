@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from flexcage.cages.machined.cage import BallCage
 from flexcage.cages.ribbon.cage import RibbonCage
+from flexcage.cages.round_pocket.cage import BallCage
 from flexcage.case import load_case
 from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError

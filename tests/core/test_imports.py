@@ -127,8 +127,11 @@ def test_every_part_of_a_case_is_in_spec():
 
 
 def test_all_that_registers_is_in_register():
-    """Functions of modules that are called register or register_..."""
+    """Functions of modules that are called register or register_..., and what specs and variables
+    are written with."""
     there = {getattr(register, name) for name in register.__all__}
+    for name in ("Variable", "bearing_type", "option", "quantity"):
+        there.remove(getattr(register, name))
     folder = Path(flexcage.__file__).parent
     for file in folder.rglob("*.py"):
         for node in ast.parse(file.read_text("utf-8")).body:

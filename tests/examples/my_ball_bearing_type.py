@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from flexcage.bearings.ball.deep_groove import DeepGrooveBallBearing
-from flexcage.geometry.bearing import bearing_type, type_name
+from flexcage.geometry.bearing import type_name
+from flexcage.register import bearing_type
 
 
 @bearing_type

@@ -8,15 +8,15 @@ from typing import ClassVar
 import numpy as np
 
 from flexcage.bearings import Family
-from flexcage.cages.machined.cage import BallCage
-from flexcage.core.spec import option, quantity
+from flexcage.cages.round_pocket.cage import BallCage
 from flexcage.geometry.bearing import (
     Bearing,
     EquivalentLoad,
+    Rules,
     Spec,
     type_name,
 )
-from flexcage.register import bearing_family
+from flexcage.register import bearing_family, option, quantity
 from flexcage.system.statics.elements import ElementLoads, Response
 
 
@@ -30,14 +30,14 @@ class SpringBearing(Bearing):
     type: str = type_name("springs")
     count: int = option(doc="number of springs", minimum=3)
     stiffness: float = quantity("N/um", doc="stiffness of one", above=0.0)
-    static_rating: ClassVar[float] = 1e6
-    dynamic_rating: ClassVar[float] = 1e6
 
-    def check(self, cage=None, defects=()):
-        """Any springs will do."""
 
-    def equivalent_load(self, radial, axial):
-        return EquivalentLoad(radial, 1.0, 0.0, 3.0)
+RULES = Rules[SpringBearing](
+    check=lambda bearing, cage, defects: None,  # any springs will do
+    static_rating=lambda bearing: 1e6,
+    dynamic_rating=lambda bearing: 1e6,
+    equivalent_load=lambda bearing, radial, axial: EquivalentLoad(radial, 1.0, 0.0, 3.0),
+)
 
 
 @dataclass(frozen=True)
@@ -93,6 +93,7 @@ bearing_family(
     Family(
         name="spring",
         types=(SpringBearing,),
+        rules=RULES,
         statics=lambda: Springs,
         motion=None,
         recording=None,

@@ -11,11 +11,11 @@ import numpy as np
 from flexcage import register
 from flexcage.cages import CageType
 from flexcage.cages.machined import CAGE_TYPE as MACHINED
-from flexcage.cages.machined.cage import BALL_CAGES, BallCage
-from flexcage.core.spec import option, quantity
+from flexcage.cages.round_pocket.cage import BALL_CAGES, BallCage
 from flexcage.mesh.build import MeshBuilder
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.options import MeshOptions
+from flexcage.register import option, quantity
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from flexcage import register
-from flexcage.core.spec import option, quantity
 from flexcage.core.units import mm
 from flexcage.geometry.defect import Finding, defect_type, signed_mm
 from flexcage.mesh.measure import in_pocket_frame
+from flexcage.register import option, quantity
 from flexcage.spec import WindowCage, WindowDefect
 
 

@@ -12,10 +12,9 @@ import numpy as np
 from scipy.linalg import eigh
 
 from flexcage import register
-from flexcage.core.spec import option, quantity
 from flexcage.modes.basis import ModeBasis
 from flexcage.modes.pockets import pocket_loads
-from flexcage.results.registry import Variable
+from flexcage.register import Variable, option, quantity
 from flexcage.solve.contract import DONE, LOG_FULL, RESIDUALS, STEPS, T
 from flexcage.solve.runge_kutta import EXPLICIT_METHOD
 from flexcage.spec import Constraint, FrictionLaw, Material, ModesSpec, NormalLaw

@@ -16,9 +16,8 @@ from flexcage.contacts.evaluation import REPORT
 from flexcage.contacts.groove import Groove
 from flexcage.contacts.land import LandData
 from flexcage.core.jit import fields, part
-from flexcage.core.spec import option, quantity
 from flexcage.geometry.bearing import BEARING_TYPES
-from flexcage.register import bearing_family
+from flexcage.register import bearing_family, option, quantity
 from flexcage.system.data import GRAVITY, Bodies, RingBody
 from flexcage.system.layout import PER_ELEMENT
 from flexcage.system.motion import Motion, parts_type

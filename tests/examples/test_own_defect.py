@@ -19,14 +19,14 @@ from flexcage.cages.build import build_cage_mesh, rigid_interface_of
 from flexcage.cages.window import CAGE_TYPE as WINDOW
 from flexcage.cages.window.cage import ROLLER_CAGES, WindowCage
 from flexcage.cages.window.defects import SideBeamDefect
-from flexcage.cages.window.measure import pocket_size
+from flexcage.cages.window.faces import pocket_size
 from flexcage.case import Case
 from flexcage.case.description import in_words
 from flexcage.core import registry
 from flexcage.core.errors import InputError
-from flexcage.core.spec import option
 from flexcage.core.wings import CAGE_TYPES
 from flexcage.geometry import defect as defects
+from flexcage.register import option
 from flexcage.render.mesh_pictures import mesh_picture
 
 HERE = Path(__file__).parent

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from flexcage.cages.build import build_cage_mesh
-from flexcage.cages.machined.cage import BallCage
-from flexcage.cages.machined.defects import EnlargedPocket, WebCrack
 from flexcage.cages.ribbon.defects import MissingRivet
+from flexcage.cages.round_pocket.cage import BallCage
+from flexcage.cages.round_pocket.defects import EnlargedPocket, WebCrack
 from flexcage.cages.window.cage import WindowCage
 from flexcage.cages.window.defects import CrossbeamDefect, SideBeamDefect
 from flexcage.case.presets import load_preset

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from flexcage.bearings.cylindrical_roller.bearing import RollerProfile
-from flexcage.cages.window.defects import CrossbeamDefect, SideBeamDefect
+from flexcage.cages.window.defects import CrossbeamDefect, SideBeamDefect, pocket_clearances
 from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
 
@@ -107,7 +107,7 @@ def test_clearances_of_every_pocket():
         CrossbeamDefect(crossbeam=5, displacement=0.1e-3),
         SideBeamDefect(pocket=7, displacement=-0.3e-3),
     ]
-    width, length = CAGE.pocket_clearances(BEARING, defects)
+    width, length = pocket_clearances(CAGE, BEARING, defects)
     expected = np.full(22, 0.2e-3)
     expected[[21, 0, 4, 5]] += [-0.2e-3, 0.2e-3, -0.1e-3, 0.1e-3]
     assert width == pytest.approx(expected, abs=1e-15)

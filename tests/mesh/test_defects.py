@@ -11,7 +11,7 @@ from flexcage.cages.window.defects import (
     clamped_beam,
     pocket_changes,
 )
-from flexcage.cages.window.measure import pocket_size
+from flexcage.cages.window.faces import pocket_size
 from flexcage.core.errors import InputError
 from flexcage.mesh.measure import in_pocket_frame
 from flexcage.mesh.quality import check_mesh, report_mesh

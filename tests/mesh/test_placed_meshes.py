@@ -11,8 +11,8 @@ import pytest
 from test_io import regrouped
 
 from flexcage.cages.build import build_cage_mesh
-from flexcage.cages.machined.cage import BallCage
-from flexcage.cages.machined.defects import WebCrack
+from flexcage.cages.round_pocket.cage import BallCage
+from flexcage.cages.round_pocket.defects import WebCrack
 from flexcage.cages.window.defects import CrossbeamDefect
 from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError

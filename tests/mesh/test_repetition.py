@@ -8,8 +8,8 @@ import pytest
 from own_mesh import renumbered
 
 from flexcage.cages.build import build_cage_mesh
-from flexcage.cages.machined.cage import BallCage
-from flexcage.cages.machined.defects import WebCrack
+from flexcage.cages.round_pocket.cage import BallCage
+from flexcage.cages.round_pocket.defects import WebCrack
 from flexcage.cages.window.cage import WindowCage
 from flexcage.cages.window.defects import CrossbeamDefect, SideBeamDefect
 from flexcage.fem.sectors import rotation_x

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from flexcage.cages.build import build_cage_mesh
-from flexcage.cages.machined.cage import BallCage
-from flexcage.cages.machined.defects import (
+from flexcage.cages.round_pocket.cage import BallCage
+from flexcage.cages.round_pocket.defects import (
     DisplacedPocket,
     ElongatedPocket,
     EnlargedPocket,

@@ -8,7 +8,7 @@ from modes_ball_cage import BALL_CAGE, BALL_DEFECTS, POCKETS, ball_mesh
 from modes_cage import assert_same_fields
 
 from flexcage.cages.build import reduce_cage, rigid_interface_of
-from flexcage.cages.machined.interface import (
+from flexcage.cages.round_pocket.interface import (
     ball_cage_interface,
     indentations,
     mean_indentation,

@@ -14,7 +14,7 @@ from test_pictures import check, has_colour
 from flexcage import render
 from flexcage.bearings.ball import slip as ball_slip
 from flexcage.cages.build import build_cage_mesh
-from flexcage.cages.machined.defects import (
+from flexcage.cages.round_pocket.defects import (
     DisplacedPocket,
     ElongatedPocket,
     EnlargedPocket,

@@ -93,10 +93,6 @@ def test_warnings_of_runs_reach_the_table_and_the_report(tmp_path):
     assert "warnings" in written and '"short_run, energy_audit"' in written
     sound = study_folder(tmp_path / "sound", LOADS)
     assert sound.warning_lines() == []
-    unknown = study_folder(tmp_path / "old", LOADS, warned=lambda k: None)
-    assert unknown.warning_lines() == [
-        "Warnings of 2 of 2 cases are not known: an earlier flexcage computed them."
-    ]
 
 
 def test_means_and_intervals_are_those_of_the_statistics(tmp_path):

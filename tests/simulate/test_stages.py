@@ -1,14 +1,12 @@
-"""The stages before a run take their specs alone; a case is one thing that has them."""
+"""The stages before a run take the sections of a case alone."""
 
-from types import SimpleNamespace
+from dataclasses import fields
 
 import numpy as np
 
 from flexcage import load_case
+from flexcage.case.sections import CageSections, CaseSections
 from flexcage.stages import (
-    CageSpecs,
-    MotionSpecs,
-    StartSpecs,
     assembled_start,
     bearing_in_motion,
     cage_mesh,
@@ -26,25 +24,24 @@ CASE = load_case({
 })  # fmt: skip
 
 
-def only(protocol, case):
-    """What the Protocol names of a case, and nothing else."""
-    names = [name for name, member in vars(protocol).items() if isinstance(member, property)]
-    return SimpleNamespace(**{name: getattr(case, name) for name in names})
+def only(sections, case):
+    """These sections of a case, and nothing else: no checks, no texts."""
+    return sections(**{field.name: getattr(case, field.name) for field in fields(sections)})
 
 
 def test_a_start_comes_from_specs_alone():
-    def start(cage_specs, motion_specs, start_specs):
-        mesh = cage_mesh(cage_specs)
-        bearing = bearing_in_motion(motion_specs, mesh, cage_reduction(cage_specs, mesh))
-        return assembled_start(start_specs, bearing)
+    def start(cage, specs):
+        mesh = cage_mesh(cage)
+        bearing = bearing_in_motion(specs, mesh, cage_reduction(cage, mesh))
+        return assembled_start(specs, bearing)
 
-    bare = start(only(CageSpecs, CASE), only(MotionSpecs, CASE), only(StartSpecs, CASE))
-    whole = start(CASE, CASE, CASE)
+    bare = start(only(CageSections, CASE), only(CaseSections, CASE))
+    whole = start(CASE, CASE)
     np.testing.assert_array_equal(bare.y, whole.y)
     np.testing.assert_array_equal(bare.yd, whole.yd)
 
 
 def test_modes_are_those_of_the_flexible_cage_whatever_the_model():
-    specs = only(CageSpecs, CASE.replace("modes.count", 4))
+    specs = only(CageSections, CASE.replace("modes.count", 4))
     assert cage_reduction(specs, cage_mesh(specs)) is None
     assert len(cage_modes(specs).frequency) >= 4

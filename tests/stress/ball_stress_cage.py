@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from flexcage.cages.build import build_cage_mesh
-from flexcage.cages.machined.cage import BallCage
-from flexcage.cages.machined.defects import EnlargedPocket, WebCrack
-from flexcage.cages.machined.interface import ball_cage_interface
-from flexcage.cages.machined.places import ROUND_PLACES
+from flexcage.cages.round_pocket.cage import BallCage
+from flexcage.cages.round_pocket.defects import EnlargedPocket, WebCrack
+from flexcage.cages.round_pocket.interface import ball_cage_interface
+from flexcage.cages.round_pocket.places import ROUND_PLACES
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import assemble
 from flexcage.geometry.materials import MATERIALS

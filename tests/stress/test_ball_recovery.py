@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from ball_stress_cage import BALL_CAGE, BALL_DEFECTS, BALL_POCKETS, ball_recovery
 
-from flexcage.cages.machined.interface import rigid_ball_interface
+from flexcage.cages.round_pocket.interface import rigid_ball_interface
 from flexcage.core.errors import InputError
 from flexcage.stress.fields import StressFields
 from flexcage.stress.history import stress_history

@@ -163,7 +163,7 @@ def test_the_nearest_step(store, time, sample, nearest):
 
 
 def test_a_run_without_steps(store):
-    """That of a rigid cage, or of an earlier flexcage."""
+    """That of a rigid cage."""
     plain = MemoryRunStore(store.layout)
     for k in range(2):
         plain.write_block(k, {"pocket_force": np.zeros((3, 4, 4))})

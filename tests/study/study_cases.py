@@ -5,6 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from flexcage.case import Case, load_case
+from flexcage.study.about import plain
+from flexcage.study.folder import CaseRow
+from flexcage.study.origin import this_one
+from flexcage.study.outputs import Figure
+from flexcage.study.plan import Planned
 from flexcage.study.spec import Study
 
 SHORT = {
@@ -24,6 +29,12 @@ def short_case(**changes: object) -> Case:
 def short_study(*axes: object, outputs=("cage_speed",), duration="0.2 ms", **rest) -> Study:
     case = short_case(**{"solver.duration": duration})
     return Study(case=case, axes=axes, outputs=outputs, **rest)
+
+
+def row_of(planned: Planned, figures: dict[str, Figure], warnings=()) -> CaseRow:
+    """The row of a finished case as this flexcage writes it."""
+    values = plain(planned.point.values)
+    return CaseRow(planned.hash, 1.0, figures, warnings, values, this_one())
 
 
 def study_file(

@@ -23,7 +23,8 @@ from flexcage.study.folder import Folder
 from flexcage.study.origin import Origin
 from flexcage.study.outputs import check_outputs, parse_reduction
 from flexcage.study.plan import make_plan
-from flexcage.study.results import StudyResults, mean_and_half_width
+from flexcage.study.record import mean_and_half_width
+from flexcage.study.results import StudyResults
 from flexcage.study.spec import Study
 from flexcage.study.work import do_case, order_of
 

@@ -13,8 +13,9 @@ from study_cases import short_case, short_study
 
 from flexcage import cli
 from flexcage.core.errors import InputError
+from flexcage.core.hashing import sealed
 from flexcage.study import maps
-from flexcage.study.about import base_of, plain
+from flexcage.study.about import plain
 from flexcage.study.axes import Grid
 from flexcage.study.folder import CaseRow, Folder
 from flexcage.study.maps import Map, MapResults
@@ -51,17 +52,6 @@ def done(tmp_path):
     folder.prepare(plan)
     write_rows(folder, plan)
     return folder
-
-
-def as_an_earlier_flexcage(folder):
-    """The folder as it was before plans and rows kept values, versions and seals."""
-    kept = folder.path / "plan.json"
-    hashes = [case[2] for case in json.loads(kept.read_text())["cases"]]
-    kept.write_text(json.dumps({"format": 1, "hashes": hashes, **base_of(folder.study())}))
-    for file in folder.cases.glob("*/row.json"):
-        row = json.loads(file.read_text())
-        keys = ("format", "hash", "seconds", "figures", "warnings")
-        file.write_text(json.dumps({key: row[key] for key in keys}))
 
 
 def edit(file, old, new):
@@ -149,16 +139,14 @@ def test_a_surface_is_laid_over_the_values_of_the_runs(done):
     assert caution in surface_through(noisy, models=("quadratic",)).report()
 
 
-@pytest.mark.parametrize("old, new", [EDITS["a value"][:2], EDITS["swapped values"][:2]])
-def test_an_edited_study_of_an_earlier_flexcage_is_refused(done, old, new, capsys):
-    """Its plan has hashes alone; what the cases themselves say decides."""
-    as_an_earlier_flexcage(done)
-    assert cli.main(["study", "report", str(done.path)]) == 0  # as it was computed
-    assert "Which version of flexcage" in " ".join(capsys.readouterr().out.split())
-    edit(done.path / "study.toml", old, new)
-    assert cli.main(["study", "report", str(done.path)]) == 2
-    said = capsys.readouterr().err
-    assert "has load.radial = " in said and "its results in cases/" in said and "resume" in said
+@pytest.mark.parametrize("lacking", ["seal", "warnings", "values", "origin"])
+def test_a_row_that_lacks_something_is_refused(lacking, done):
+    file = next(done.cases.glob("*/row.json"))
+    row = json.loads(file.read_text())
+    kept = {key: value for key, value in row.items() if key not in (lacking, "seal")}
+    file.write_text(json.dumps(kept if lacking == "seal" else sealed(kept)))
+    with pytest.raises(InputError, match="row.json' does not hold the figures"):
+        StudyResults(done.path).report()
 
 
 def test_rows_of_different_versions_are_told_apart(done, tmp_path):

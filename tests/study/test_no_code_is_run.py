@@ -1,16 +1,15 @@
 """Opening a study or a run never runs code of its folder: what is stored is enough to read it."""
 
-import json
 import subprocess
 import sys
 
 import pytest
-from study_cases import short_study
+from study_cases import row_of, short_study
 
 from flexcage.case import extensions
 from flexcage.core.errors import InputError
 from flexcage.study.axes import Grid
-from flexcage.study.folder import CaseRow, Folder
+from flexcage.study.folder import Folder
 from flexcage.study.outputs import Figure
 from flexcage.study.plan import make_plan
 from flexcage.study.results import StudyResults
@@ -33,7 +32,7 @@ def folder(tmp_path, monkeypatch):
     for k, planned in enumerate(plan.cases):
         out.case(planned.hash).mkdir()
         figures = {"cage_speed": Figure(100.0 + k, "rad/s", "rpm")}
-        out.write_row(out.case(planned.hash), CaseRow(planned.hash, 1.0, figures))
+        out.write_row(out.case(planned.hash), row_of(planned, figures))
     return out
 
 
@@ -81,12 +80,3 @@ def test_in_python_the_cases_want_the_file_and_the_table_does_not(folder):
     assert len(results.table) == 2
     with pytest.raises(InputError, match="load_extension"):
         results.study  # noqa: B018
-
-
-def test_a_plan_of_an_earlier_flexcage_is_read(folder):
-    plan = folder.path / "plan.json"
-    hashes = [name for _, _, name in json.loads(plan.read_text())["cases"]]
-    plan.write_text(json.dumps(hashes))
-    text = (folder.path / "study.toml").read_text()
-    (folder.path / "study.toml").write_text(text.replace('use = ["../mine.py"]', "use = []"))
-    assert list(StudyResults(folder.path).table["load.radial [N]"]) == [500.0, 1000.0]

@@ -2,11 +2,11 @@
 
 from xml.etree import ElementTree
 
-from study_cases import short_study
+from study_cases import row_of, short_study
 
 from flexcage.core.warning import RunWarning
 from flexcage.study import Grid, StudyResults
-from flexcage.study.folder import CaseRow, Folder
+from flexcage.study.folder import Folder
 from flexcage.study.outputs import Figure
 from flexcage.study.plan import make_plan
 
@@ -20,7 +20,7 @@ def stored(folder, loads):
         out.case(planned.hash).mkdir()
         figures = {"cage_speed": Figure(100.0 + k, "rad/s", "rpm")}
         warnings = (RunWarning("short", "Too <short>."),) if k == 0 else ()
-        out.write_row(out.case(planned.hash), CaseRow(planned.hash, 1.0, figures, warnings))
+        out.write_row(out.case(planned.hash), row_of(planned, figures, warnings))
     return StudyResults(folder)
 
 

@@ -3,13 +3,13 @@
 import json
 
 import pytest
-from study_cases import short_case, short_study, study_file
+from study_cases import row_of, short_case, short_study, study_file
 
 from flexcage import cli
 from flexcage.core.errors import InputError
 from flexcage.core.hashing import sealed
 from flexcage.study.axes import Grid
-from flexcage.study.folder import CaseRow, Folder
+from flexcage.study.folder import Folder
 from flexcage.study.maps import Map
 from flexcage.study.outputs import Figure
 from flexcage.study.plan import make_plan
@@ -46,7 +46,7 @@ def done(tmp_path):
     folder.prepare(plan)
     for planned in plan.cases:
         folder.case(planned.hash).mkdir()
-        row = CaseRow(planned.hash, 1.0, {"cage_speed": Figure(1.0, "rad/s", "rpm")})
+        row = row_of(planned, {"cage_speed": Figure(1.0, "rad/s", "rpm")})
         folder.write_row(folder.case(planned.hash), row)
     victim = tmp_path / "victim"
     victim.write_text("mine")

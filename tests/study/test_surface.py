@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from study_cases import short_study
+from study_cases import row_of, short_study
 
 from flexcage.cli import main
 from flexcage.core.errors import InputError
 from flexcage.study.axes import Grid, Points, Zip
 from flexcage.study.decide import FLAT, POWER, needed
-from flexcage.study.folder import CaseRow, Folder
+from flexcage.study.folder import Folder
 from flexcage.study.outputs import Figure
 from flexcage.study.plan import make_plan
 from flexcage.study.quadratic import fit_quadratic, terms
@@ -168,7 +168,7 @@ def finished(folder, *axes):
             "pocket_force_mean": Figure(value, "N", "N", 0.02),
         }
         out.case(planned.hash).mkdir()
-        out.write_row(out.case(planned.hash), CaseRow(planned.hash, 1.0, figures))
+        out.write_row(out.case(planned.hash), row_of(planned, figures))
     return StudyResults(folder)
 
 

@@ -10,7 +10,7 @@ from scipy import sparse
 
 from flexcage.bearings.ball.motion import MOTION
 from flexcage.bodies.floating_frame import flexible_body
-from flexcage.cages.machined.interface import BallCageInterface, wall_stations
+from flexcage.cages.round_pocket.interface import BallCageInterface, wall_stations
 from flexcage.case.presets import load_preset
 from flexcage.contacts.spec import Contacts, FrictionLaw, Lubricant, NormalLaw, PairSpec
 from flexcage.system.layout import Layout, bodies_of_bearing

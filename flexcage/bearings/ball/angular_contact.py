@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from math import asin, cos, pi, sin, sqrt
 from typing import ClassVar
 
-from flexcage.bearings.ball import checks as ball_checks
 from flexcage.bearings.ball.bearing import BallBearing, clearance_at
 from flexcage.core.spec import quantity
 from flexcage.geometry.bearing import type_name
-from flexcage.geometry.checks import Finding
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,6 +49,3 @@ class AngularContactBallBearing(BallBearing):
     def groove_offset(self) -> tuple[float, float]:
         angle = self.free_contact_angle
         return self.groove_distance * sin(angle), self.groove_distance * cos(angle)
-
-    def find_in_clearance(self) -> Iterator[Finding]:
-        return ball_checks.find_in_angle(self)

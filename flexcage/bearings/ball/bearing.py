@@ -7,37 +7,30 @@ Bearing Analysis, 2 and 6; ISO/TS 16281:2008, 4.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from math import acos, cos, inf, pi, sin, sqrt
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
-from flexcage.bearings.ball import checks, ratings
 from flexcage.bearings.ball.spot import BallSpot
-from flexcage.cages.machined.cage import BallCage
+from flexcage.cages.round_pocket.cage import BallCage
 from flexcage.core.spec import GIVEN, option, quantity
 from flexcage.core.units import typeset
 from flexcage.geometry.bearing import (
     Bearing,
-    EquivalentLoad,
-    RingLand,
-    RingLimit,
     Spec,
     hollow_cylinder_inertia,
 )
-from flexcage.geometry.cage import Cage
-from flexcage.geometry.checks import Finding
 from flexcage.geometry.film import Film, Oil, both_races, point_film, rolling_entrainment
 from flexcage.geometry.hertz import PointContact
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.other_kinds import SURROUNDINGS
 from flexcage.geometry.spall import BY_RACE, Spall
 
-_EDGE = 0.1  # of half a cage's width: what its end touches a groove with (assumption)
-_SHOULDER = 0.2  # of the ball's diameter: a shoulder's height where none is given
+SHOULDER = 0.2  # of the ball's diameter: a shoulder's height where none is given
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -168,37 +161,19 @@ class BallBearing(Bearing):
         """Half of the width [m] of the "inner" or "outer" ring's groove between its shoulders, a
         fifth of the ball's diameter high where no height is given."""
         given, radius = getattr(self, f"{ring}_shoulder"), getattr(self, f"{ring}_groove_radius")
-        height = _SHOULDER * self.ball_diameter if given is None else given
+        height = SHOULDER * self.ball_diameter if given is None else given
         return sqrt(max(height * (2.0 * radius - height), 0.0))
 
     @cached_property
     def shoulder_diameters(self) -> tuple[float, float]:
         """Diameters [m] of inner and outer ring at their shoulders; a fifth of the ball's diameter
         above the grooves' bottoms where heights are not given."""
-        share = _SHOULDER * self.ball_diameter
+        share = SHOULDER * self.ball_diameter
         inner, outer = (h or share for h in (self.inner_shoulder, self.outer_shoulder))
         return (
             self.pitch_diameter - self.ball_diameter + 2.0 * inner,
             self.pitch_diameter + self.ball_diameter - 2.0 * outer,
         )
-
-    def cage_space(self, cage: Cage) -> tuple[RingLimit | None, RingLimit | None]:
-        """Shoulders, or grooves where the cage is narrower than these; none of a bearing that is
-        open on one side, if no height is given."""
-        found: list[RingLimit | None] = []
-        for side, sign in (("inner", 1.0), ("outer", -1.0)):
-            height, r = getattr(self, f"{side}_shoulder"), getattr(self, f"{side}_groove_radius")
-            if height is None and self.one_sided:
-                found.append(None)
-                continue
-            what = "shoulder" if height else "shoulder (a fifth of the ball's diameter is assumed)"
-            high = height or _SHOULDER * self.ball_diameter
-            half = cage.axial_reach
-            if half < r and (rise := r - sqrt(r**2 - half**2)) < high:
-                high, what = rise, "groove"
-            bottom = self.pitch_diameter - sign * self.ball_diameter
-            found.append(RingLimit(bottom + 2.0 * sign * high, f"the {side} ring's {what}"))
-        return found[0], found[1]
 
     @cached_property
     def groove_edges(self) -> tuple[float, float]:
@@ -208,44 +183,6 @@ class BallBearing(Bearing):
         radii = (self.inner_groove_radius, self.outer_groove_radius)
         inner, outer = (inf if h is None else acos(1.0 - h / r) for h, r in zip(heights, radii))
         return inner, outer
-
-    def land(self, cage: Cage) -> RingLand | None:
-        if cage.guidance not in ("inner", "outer"):
-            return None
-        outer = cage.guidance == "outer"
-        name, what = f"bearing.{cage.guidance}_shoulder", "outside_diameter" if outer else "bore"
-        given = self.outer_shoulder if outer else self.inner_shoulder
-        shoulder, own = self.shoulder_diameters[int(outer)], getattr(cage, what)
-        groove = self.race_reach(cage.guidance)
-        end = 0.5 * min(cage.width, self.width)
-        return RingLand(
-            clearance=None if given is None else 0.5 * (shoulder - own) * (1.0 if outer else -1.0),
-            of=f"cage.{what} and {name}",
-            strict=False,
-            facing=end - max(0.5 * cage.pocket_diameter, groove),
-            end=end,
-        )
-
-    def stops(self, cage: Cage) -> tuple[RingLand | None, RingLand | None]:
-        """Shoulders of given heights, or grooves beside them, that leave a cage a gap which only
-        balls guide; none for one that is no mirror image of itself, like a crown."""
-        if cage.has_land or cage.axial_reach > 0.5 * cage.axial_width:
-            return None, None
-        found: list[RingLand | None] = []
-        for side, limit in zip(("inner", "outer"), self.cage_space(cage)):
-            if limit is None or getattr(self, f"{side}_shoulder") is None:
-                found.append(None)
-                continue
-            out = side == "outer"
-            gap = limit.diameter - cage.outside_diameter if out else cage.bore - limit.diameter
-            end, groove = min(cage.axial_reach, 0.5 * self.width), self.race_reach(side)
-            rim = end - max(0.5 * cage.pocket_diameter, groove)
-            facing = rim if rim > 0.0 else max(end - groove, _EDGE * end)
-            stop = RingLand(
-                clearance=0.5 * gap, of=limit.name, strict=False, facing=facing, end=end
-            )
-            found.append(stop if gap > 0.0 else None)
-        return found[0], found[1]
 
     @cached_property
     def inner_ring_mass(self) -> float:
@@ -315,27 +252,6 @@ class BallBearing(Bearing):
             for bend, c in zip(bends, contacts)
         )
         return inner, outer
-
-    def check(self, cage: Any = None, defects: Sequence[Any] = ()) -> None:
-        checks.check(self, cage, defects)
-
-    def find_around_cage(self, cage: Cage) -> Iterator[Finding]:
-        return checks.find_around_cage(self, cage)
-
-    def find_in_clearance(self) -> Iterator[Finding]:
-        """What is impossible in the clearance, or in what says the same."""
-        return checks.find_in_clearance(self, self.clearance)
-
-    @property
-    def static_rating(self) -> float:
-        return ratings.static_rating(self)
-
-    @property
-    def dynamic_rating(self) -> float:
-        return ratings.dynamic_rating(self)
-
-    def equivalent_load(self, radial: float, axial: float) -> EquivalentLoad:
-        return ratings.equivalent_load(self, radial, axial)
 
     def race_film(self, force: np.ndarray, speed: np.ndarray, oil: Oil) -> Film:
         return both_races([

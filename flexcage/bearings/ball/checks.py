@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from math import asin, cos, degrees, pi, sin
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from flexcage.bearings.ball.spot import find_in_spot
+from flexcage.bearings.ball.angular_contact import AngularContactBallBearing
+from flexcage.bearings.ball.bearing import BallBearing
 from flexcage.core.units import describe, mm
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.checks import (
@@ -18,10 +19,7 @@ from flexcage.geometry.checks import (
     raise_first,
 )
 from flexcage.geometry.spall import find_in_spall
-
-if TYPE_CHECKING:
-    from flexcage.bearings.ball.angular_contact import AngularContactBallBearing
-    from flexcage.bearings.ball.bearing import BallBearing
+from flexcage.geometry.spot import find_in_spots
 
 _AGREE = 1e-6  # m, to which contact angle and clearance must agree: a tenth of a clearance class
 _WIDEST_GROOVE = 1.0  # radius, of the ball's diameter
@@ -35,11 +33,14 @@ def check(bearing: BallBearing, cage: Cage | None, defects: Sequence[Any]) -> No
     raise_first(_find_in_balls(bearing))
     raise_first(_find_in_shoulders(bearing))
     raise_first(_find_in_spalls(bearing))
-    raise_first(find_in_spot(bearing))
-    raise_first(bearing.find_in_clearance())
+    raise_first(_find_in_spot(bearing))
+    if isinstance(bearing, AngularContactBallBearing):
+        raise_first(_find_in_angle(bearing))
+    else:
+        raise_first(_find_in_clearance(bearing, bearing.clearance))
     if cage is None:
         return
-    check_room(bearing, cage)
+    check_room(bearing, cage, find_around_cage(bearing, cage))
     cage.check(bearing.ball_count)
     check_cage_defects(bearing, cage, defects)
 
@@ -117,7 +118,7 @@ def _find_in_spalls(b: BallBearing) -> Iterator[Finding]:
             )
 
 
-def find_in_angle(b: AngularContactBallBearing) -> Iterator[Finding]:
+def _find_in_angle(b: AngularContactBallBearing) -> Iterator[Finding]:
     """What is impossible in contact angle and clearance, one of which says the other."""
     if b.contact_angle is None and b.radial_clearance is None:
         yield (
@@ -131,7 +132,7 @@ def find_in_angle(b: AngularContactBallBearing) -> Iterator[Finding]:
                 f"bearing.radial_clearance is {describe(b.radial_clearance, 'um')}, but an angular "
                 "contact bearing has its contact angle from a clearance greater than 0 um.",
             )
-        yield from find_in_clearance(b, b.radial_clearance)
+        yield from _find_in_clearance(b, b.radial_clearance)
     elif b.radial_clearance is not None and b.contact_angle is not None:
         due = b.clearance
         if abs(due - b.radial_clearance) > _AGREE:
@@ -143,7 +144,7 @@ def find_in_angle(b: AngularContactBallBearing) -> Iterator[Finding]:
             )
 
 
-def find_in_clearance(b: BallBearing, clearance: float) -> Iterator[Finding]:
+def _find_in_clearance(b: BallBearing, clearance: float) -> Iterator[Finding]:
     """A clearance [m] that its grooves do not allow."""
     most, least = 2.0 * b.groove_distance, -_MOST_PRELOAD * b.ball_diameter
     if not least <= clearance < most:
@@ -189,3 +190,11 @@ def find_around_cage(b: BallBearing, c: Cage) -> Iterator[Finding]:
             f"{_WIDEST:g} times as wide.",
         )
     yield from find_off_pitch_circle(b, c)
+
+
+def _find_in_spot(b: BallBearing) -> Iterator[tuple[str, str]]:
+    """What is impossible in the spot of a bearing's ball; where, and in a sentence."""
+    spot = b.ball_spot
+    if spot.size:
+        named = {"ball": (spot.ball,), "others": spot.others}
+        yield from find_in_spots(b, "bearing.ball_spot", spot, named, b.ball_diameter)

@@ -10,8 +10,8 @@ import numpy as np
 from flexcage.bearings.ball.bearing import BallBearing
 from flexcage.bearings.ball.neighbours import besides
 from flexcage.bodies.floating_frame import BodyData, FlexibleBody
-from flexcage.cages.machined.cage import BallCage
-from flexcage.cages.machined.interface import BallCageInterface
+from flexcage.cages.round_pocket.cage import BallCage
+from flexcage.cages.round_pocket.interface import BallCageInterface
 from flexcage.contacts import laws
 from flexcage.contacts.ball_pocket import CYLINDER, SPHERE, BallPockets, ball_pocket_work
 from flexcage.contacts.beside import Beside

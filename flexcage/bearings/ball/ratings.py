@@ -10,15 +10,12 @@ ones lower it.
 from __future__ import annotations
 
 from math import cos, degrees, nan, sin, tan
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from flexcage.bearings.ball.bearing import BallBearing
 from flexcage.geometry.bearing import EquivalentLoad
 from flexcage.geometry.hertz import PointContact, load_at_pressure
-
-if TYPE_CHECKING:
-    from flexcage.bearings.ball.bearing import BallBearing
 
 STATIC_PRESSURE = 4.2e9  # Pa, ISO 76, balls
 _STRIBECK = 5.0  # ISO 76: C0r = Z Q cos(alpha)/5

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from flexcage.cages.round_pocket.cage import BallCage
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.hertz import PointContact
@@ -22,6 +23,7 @@ SECTORS = 24  # round a round pocket, whose depths are told apart
 
 def rubbing(ds: xarray.Dataset, bearing: Bearing, cage: Cage) -> Rubbing:
     """Balls on the walls of round pockets, by sectors round the pocket."""
+    assert isinstance(cage, BallCage)
     motion, radius = pocket_motion(ds), 0.5 * bearing.element_diameter
     station = ds["station_force"].transpose("time", "pocket", "face", "station", "cyl").values
     force, friction = (

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from math import cos, sin
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from flexcage.core.spec import GIVEN, option, quantity
-from flexcage.geometry.spot import find_in_spots, spotted_in_words
-
-if TYPE_CHECKING:
-    from flexcage.bearings.ball.bearing import BallBearing
+from flexcage.geometry.spot import spotted_in_words
 
 _IS = {"size": GIVEN}
 
@@ -61,11 +56,3 @@ class BallSpot:
     def in_words(self) -> str:
         """A sentence on it; empty if there is none."""
         return spotted_in_words("Ball", self.balls, self)
-
-
-def find_in_spot(b: BallBearing) -> Iterator[tuple[str, str]]:
-    """What is impossible in the spot of a bearing's ball; where, and in a sentence."""
-    spot = b.ball_spot
-    if spot.size:
-        named = {"ball": (spot.ball,), "others": spot.others}
-        yield from find_in_spots(b, "bearing.ball_spot", spot, named, b.ball_diameter)

@@ -14,6 +14,7 @@ from math import pi
 
 import numpy as np
 
+from flexcage.bearings.ball.bearing import BallBearing
 from flexcage.bearings.ball.model import BallModel
 from flexcage.bearings.ball.spot import BallSpot
 from flexcage.bodies.floating_frame import BodyData
@@ -35,6 +36,7 @@ def ball_start(
     y = ball_places(bearing, solution)
     made_room(model.land, bearing.layout, y)
     yd = rolling_balls(model, bearing.layout, solution, y)
+    assert isinstance(bearing.spec, BallBearing)
     turn_spots(bearing.spec.ball_spot, bearing.layout, y, yd)
     if bearing.layout.modes:
         spin = float(bearing.layout.u(y)["omega"][0])

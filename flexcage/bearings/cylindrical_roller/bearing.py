@@ -2,30 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from math import pi
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
-from flexcage.bearings.cylindrical_roller import checks, designs, lands, ratings
+from flexcage.bearings.cylindrical_roller import designs
 from flexcage.bearings.cylindrical_roller.spot import RollerSpot
 from flexcage.cages.window.cage import WindowCage
 from flexcage.core.spec import GIVEN, option, quantity
 from flexcage.core.units import typeset
 from flexcage.geometry.bearing import (
     Bearing,
-    EquivalentLoad,
-    RingLand,
-    RingLimit,
     Spec,
     hollow_cylinder_inertia,
     type_name,
 )
-from flexcage.geometry.cage import Cage
-from flexcage.geometry.checks import Finding
 from flexcage.geometry.film import Film, Oil, both_races, line_film, rolling_entrainment
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.other_kinds import SURROUNDINGS
@@ -199,7 +194,33 @@ class RollerBearing(Bearing):
 
     def ribs(self, ring: str) -> designs.Ribs | None:
         """Ribs of the "inner" or "outer" ring; None if it has none."""
-        return designs.ribs_of(self, ring)
+        design = designs.DESIGNS[self.design]
+        if ring == design.guide:
+            return designs.Ribs(self.rib_diameter, self.rib_gap, designs.BOTH)
+        if not design.counter:
+            return None
+        diameter, gap = self.counter_rib_diameter, self.counter_rib_gap
+        assert diameter is not None and gap is not None  # see ``checks``
+        return designs.Ribs(diameter, gap, self._counter_sides)
+
+    @property
+    def _counter_sides(self) -> tuple[bool, bool]:
+        """Sides of the counter ribs. A single one of the inner ring pushes the rollers the way of
+        the axial load; one of the outer ring stands in that way."""
+        design = designs.DESIGNS[self.design]
+        if design.counter == 2:
+            return designs.BOTH
+        plus = (self.thrust == "+x") == (design.other == "outer")
+        return plus, not plus
+
+    @property
+    def carried(self) -> tuple[bool, bool]:
+        """Does the bearing carry axial load on its inner ring towards +x, and towards -x?"""
+        counter = designs.DESIGNS[self.design].counter
+        plus, minus = (
+            counter == 2 or (counter == 1 and self.thrust == side) for side in designs.SIDES
+        )
+        return plus, minus
 
     @property
     def guides(self) -> Mapping[str, str]:
@@ -208,16 +229,23 @@ class RollerBearing(Bearing):
         return {**super().guides, **own}
 
     def free_axially(self, loaded: bool) -> bool:
-        return loaded and any(designs.carried(self))
+        return loaded and any(self.carried)
 
     def axial_refusal(self, load: float) -> str:
-        return designs.axial_refusal(self, load)
-
-    def land(self, cage: Cage) -> RingLand:
-        return lands.land(self, cage)
-
-    def cage_space(self, cage: Cage) -> tuple[RingLimit, RingLimit]:
-        return lands.limit(self, "inner"), lands.limit(self, "outer")
+        """Why the ribs cannot carry an axial load [N] on the inner ring; empty if they can."""
+        if load == 0.0 or self.carried[0 if load > 0.0 else 1]:
+            return ""
+        if not any(self.carried):
+            guide = designs.DESIGNS[self.design].guide
+            return (
+                f"the design {self.design} has ribs on the {guide} ring alone and carries no axial "
+                "load: NJ carries one towards one side, NUP towards both"
+            )
+        towards = "+x" if load > 0.0 else "-x"
+        return (
+            f"this {self.design} carries axial load towards {self.thrust} alone: bearing.thrust = "
+            f'"{towards}" turns it round, and the design NUP carries both'
+        )
 
     @cached_property
     def inner_ring_mass(self) -> float:
@@ -244,12 +272,6 @@ class RollerBearing(Bearing):
             self.outer_ring_mass, self.outer_race_diameter, self.outside_diameter, self.width
         )
 
-    def check(self, cage: Any = None, defects: Sequence[Any] = ()) -> None:
-        checks.check(self, cage, defects)
-
-    def find_around_cage(self, cage: Cage) -> Iterator[Finding]:
-        return checks.find_around_cage(self, cage)
-
     @property
     def greatest_tilt(self) -> float:
         return 2.0 * _MOST_PRESSED * self.roller_diameter / self.effective_length
@@ -257,17 +279,6 @@ class RollerBearing(Bearing):
     @property
     def greatest_shift(self) -> float:
         return 0.5 * (self.width - self.roller_length)
-
-    @property
-    def static_rating(self) -> float:
-        return ratings.static_rating(self)
-
-    @property
-    def dynamic_rating(self) -> float:
-        return ratings.dynamic_rating(self)
-
-    def equivalent_load(self, radial: float, axial: float) -> EquivalentLoad:
-        return ratings.equivalent_load(radial, axial, ribs=any(designs.carried(self)))
 
     def race_film(self, force: np.ndarray, speed: np.ndarray, oil: Oil) -> Film:
         """The load spread evenly over the effective length: a profile's ends are not resolved."""

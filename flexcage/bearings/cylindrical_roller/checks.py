@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from math import asin, pi, sin
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from flexcage.bearings.cylindrical_roller import designs
-from flexcage.bearings.cylindrical_roller.spot import find_in_spot
+from flexcage.bearings.cylindrical_roller import designs, lands
+from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
 from flexcage.core.units import describe, mm
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.checks import (
@@ -20,9 +20,7 @@ from flexcage.geometry.checks import (
     raise_first,
 )
 from flexcage.geometry.spall import find_in_spall
-
-if TYPE_CHECKING:
-    from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
+from flexcage.geometry.spot import find_in_spots
 
 _MOST_CLEARANCE = 0.05  # of the roller's diameter: leaves one roller to bear a moderate load
 
@@ -30,18 +28,18 @@ _MOST_CLEARANCE = 0.05  # of the roller's diameter: leaves one roller to bear a 
 def check(bearing: RollerBearing, cage: Cage | None, defects: Sequence[Any]) -> None:
     """Raise InputError for the first impossibility in the bearing, its cage or the defects."""
     raise_first(find_in_bearing(bearing))
-    raise_first(find_in_spot(bearing))
+    raise_first(_find_in_spot(bearing))
     if cage is None:
         return
     cage.check(bearing.roller_count)
-    check_room(bearing, cage)
+    check_room(bearing, cage, find_around_cage(bearing, cage))
     check_cage_defects(bearing, cage, defects)
 
 
 def find_in_bearing(b: RollerBearing) -> Iterator[Finding]:
     """What is impossible in the bearing alone."""
-    yield from designs.find_in_design(b)
-    rising = designs.diameters(b)
+    yield from _find_in_design(b)
+    rising = _diameters(b)
     for (small, low), (large, high) in zip(rising, rising[1:]):
         if not low < high:
             yield (
@@ -97,7 +95,7 @@ def _find_in_lengths(b: RollerBearing) -> Iterator[Finding]:
             f"bearing.effective_length is {mm(b.effective_length)}, longer than the roller "
             f"itself, {mm(b.roller_length)}.",
         )
-    yield from designs.find_in_gaps(b)
+    yield from _find_in_gaps(b)
     if b.profile.kind == "crowned" and (0.5 * b.effective_length) ** 2 > (
         b.profile.crown_radius * b.roller_diameter
     ):
@@ -115,7 +113,7 @@ def find_around_cage(b: RollerBearing, c: Cage) -> Iterator[Finding]:
             "cage.width",
             f"cage.width is {mm(c.width)}, wider than the bearing, {mm(b.width)}.",
         )
-    inner, outer = b.cage_space(c)
+    inner, outer = lands.limits(b, c)
     if c.bore <= inner.diameter:
         yield (
             "cage.bore",
@@ -136,3 +134,75 @@ def find_around_cage(b: RollerBearing, c: Cage) -> Iterator[Finding]:
             f"'{designs.DESIGNS[b.design].guide}'.",
         )
     yield from find_off_pitch_circle(b, c)
+
+
+def _find_in_spot(b: RollerBearing) -> Iterator[tuple[str, str]]:
+    """What is impossible in the spot of a bearing's roller; where, and in a sentence."""
+    spot, where, reach = b.roller_spot, "bearing.roller_spot", b.effective_length
+    if not spot.size:
+        return
+    named = {"roller": (spot.roller,), "others": spot.others}
+    yield from find_in_spots(b, where, spot, named, b.roller_diameter)
+    if spot.width is not None and abs(spot.offset) - 0.5 * spot.width >= 0.5 * reach:
+        yield (
+            f"{where}.offset",
+            f"{where}.offset is {mm(spot.offset)}, where the roller touches no race: it does to "
+            f"{mm(0.5 * reach)} from its middle.",
+        )
+
+
+def _diameters(b: RollerBearing) -> list[tuple[str, float]]:
+    """Names and values of the fields that must rise from the bore to the outside diameter."""
+    guide, counter = ("rib_diameter", b.rib_diameter), _counter(b)
+    ribs = [guide, *counter] if designs.DESIGNS[b.design].guide == "inner" else [*counter, guide]
+    return [
+        ("bore", b.bore),
+        ("inner_race_diameter", b.inner_race_diameter),
+        *ribs,
+        ("outer_race_diameter", b.outer_race_diameter),
+        ("outside_diameter", b.outside_diameter),
+    ]
+
+
+def _counter(b: RollerBearing) -> list[tuple[str, float]]:
+    value = b.counter_rib_diameter
+    return [] if value is None else [("counter_rib_diameter", value)]
+
+
+def _find_in_design(b: RollerBearing) -> Iterator[Finding]:
+    """Counter ribs of a design that has none, or that are not described."""
+    design = designs.DESIGNS[b.design]
+    for key in ("counter_rib_diameter", "counter_rib_gap"):
+        value = getattr(b, key)
+        if value is None and design.counter:
+            yield (
+                f"bearing.{key}",
+                f"bearing.{key} is missing, but the design {b.design} has "
+                f"{'a rib' if design.counter == 1 else 'ribs'} on the {design.other} ring too; "
+                "give it.",
+            )
+        elif value is not None and not design.counter:
+            yield (
+                f"bearing.{key}",
+                f"bearing.{key} is {describe(value, 'mm')}, but the design {b.design} has no ribs "
+                f"on the {design.other} ring; leave it out, or take the design NJ, NUP or NF.",
+            )
+
+
+def _find_in_gaps(b: RollerBearing) -> Iterator[Finding]:
+    """Ribs that leave rollers no place between them, or for which the rings have none."""
+    gaps = (("rib_gap", b.rib_gap), ("counter_rib_gap", b.counter_rib_gap))
+    for key, gap in gaps:
+        if gap is None:
+            continue
+        if gap <= b.roller_length:
+            yield (
+                f"bearing.{key}",
+                f"bearing.{key} is {mm(gap)}, but must be greater than the roller's length, "
+                f"{mm(b.roller_length)}.",
+            )
+        if gap >= b.width:
+            yield (
+                f"bearing.{key}",
+                f"bearing.{key} is {mm(gap)}, which leaves no ribs on a ring {mm(b.width)} wide.",
+            )

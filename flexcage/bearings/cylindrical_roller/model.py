@@ -8,7 +8,9 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
-from flexcage.bearings.cylindrical_roller.designs import DESIGNS, rib_height
+from flexcage.bearings.cylindrical_roller.designs import DESIGNS
+from flexcage.bearings.cylindrical_roller.lands import limits
+from flexcage.bearings.cylindrical_roller.ribs import rib_height
 from flexcage.bearings.cylindrical_roller.variables import END_POINTS
 from flexcage.bodies.floating_frame import BodyData, FlexibleBody
 from flexcage.cages.window.cage import WindowCage
@@ -138,7 +140,7 @@ def crossbeam_width(bearing: RollerBearing, cage: WindowCage) -> float:
 
 def _guiding_land(bearing: RollerBearing, cage: WindowCage) -> tuple[bool, float, float]:
     """Is the cage's outside its land, that land's radius, and its clearance on the ring [m]?"""
-    radius, (inner, outer) = cage.land_radius, bearing.cage_space(cage)
+    radius, (inner, outer) = cage.land_radius, limits(bearing, cage)
     if cage.land_ring == "outer":
         return True, radius, 0.5 * outer.diameter - radius
     return False, radius, radius - 0.5 * inner.diameter

@@ -8,13 +8,10 @@ not public: formulas and constants are those that public implementations of them
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
+from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
 from flexcage.core.errors import InputError
 from flexcage.geometry.bearing import EquivalentLoad
-
-if TYPE_CHECKING:
-    from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
 
 # The formula's constant is printed as 0.377 * 551.13373 = 207.78, factors of three digits. All
 # 20 entries of ISO 281's table of f_c come out to their last digit for 207.891 to 207.915 alone.
@@ -49,10 +46,10 @@ def dynamic_rating(bearing: RollerBearing) -> float:
     return _B_M * geometry_factor(bearing.gamma) * size
 
 
-def equivalent_load(radial: float, axial: float, *, ribs: bool) -> EquivalentLoad:
-    """P = Fr: with a contact angle of 0 no axial load is allowed for. What ``ribs`` carry is
+def equivalent_load(bearing: RollerBearing, radial: float, axial: float) -> EquivalentLoad:
+    """P = Fr: with a contact angle of 0 no axial load is allowed for. What ribs carry is
     limited by their friction; ISO 281 gives no factors for it."""
-    if axial != 0.0 and ribs:
+    if axial != 0.0 and any(bearing.carried):
         return EquivalentLoad(nan, 1.0, nan, 10.0 / 3.0)
     if axial != 0.0:
         raise InputError(

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from flexcage.bearings.cylindrical_roller import designs
+from flexcage.bearings.cylindrical_roller import designs, ribs
 from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
 from flexcage.system.statics.elements import Response
 
@@ -54,13 +54,13 @@ class RibPairs:
 
 def rib_pairs(b: RollerBearing, stiffness: float) -> RibPairs | None:
     """Pairs of a bearing whose ribs are of a ``stiffness`` [N/m] each; None if none carries."""
-    ways = tuple(way for way, there in zip((1, -1), designs.carried(b)) if there)
+    ways = tuple(way for way, there in zip((1, -1), b.carried) if there)
     if not ways:
         return None
-    inner, outer = (designs.rib_height(b, ring) for ring in designs.RINGS)
+    inner, outer = (ribs.rib_height(b, ring) for ring in designs.RINGS)
     return RibPairs(
         ways=ways,
-        play=designs.axial_clearance(b),
+        play=ribs.axial_clearance(b),
         stiffness=0.5 * stiffness,
         ring=np.array([1.0, 0.0, -(b.pitch_radius + inner)]),
         own=np.array([0.0, 2.0 / b.effective_length * (inner - outer)]),

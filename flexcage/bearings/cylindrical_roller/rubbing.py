@@ -49,7 +49,7 @@ def _rub(ds: xarray.Dataset, bearing: Bearing, points: np.ndarray) -> tuple[np.n
     (t,) [W], and the sum of the first over time by slices of crossbeams (z, 2, s) [W]."""
     motion = pocket_motion(ds)
     beams = slice_speeds(motion, ds["slice"].values, 0.5 * bearing.element_diameter)
-    ends = end_speeds(motion, points, 0.5 * bearing.roller_length)
+    ends = end_speeds(motion, points, 0.5 * bearing.element_length)
     order = ("time", "pocket", "face")
     force, friction = (
         ds[f"pocket_{what}"].transpose(*order).values[..., 2:] for what in ("force", "friction")

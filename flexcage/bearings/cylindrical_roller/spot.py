@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from flexcage.core.spec import GIVEN, option, quantity
-from flexcage.core.units import mm
 from flexcage.geometry.spall import covered
-from flexcage.geometry.spot import find_in_spots, spotted_in_words
-
-if TYPE_CHECKING:
-    from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
+from flexcage.geometry.spot import spotted_in_words
 
 _IS = {"size": GIVEN}
 
@@ -70,18 +64,3 @@ class RollerSpot:
     def in_words(self) -> str:
         """A sentence on it; empty if there is none."""
         return spotted_in_words("Roller", self.rollers, self)
-
-
-def find_in_spot(b: RollerBearing) -> Iterator[tuple[str, str]]:
-    """What is impossible in the spot of a bearing's roller; where, and in a sentence."""
-    spot, where, reach = b.roller_spot, "bearing.roller_spot", b.effective_length
-    if not spot.size:
-        return
-    named = {"roller": (spot.roller,), "others": spot.others}
-    yield from find_in_spots(b, where, spot, named, b.roller_diameter)
-    if spot.width is not None and abs(spot.offset) - 0.5 * spot.width >= 0.5 * reach:
-        yield (
-            f"{where}.offset",
-            f"{where}.offset is {mm(spot.offset)}, where the roller touches no race: it does to "
-            f"{mm(0.5 * reach)} from its middle.",
-        )

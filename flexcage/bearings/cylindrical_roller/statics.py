@@ -19,7 +19,6 @@ import numpy as np
 from scipy.optimize import brentq
 
 from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
-from flexcage.bearings.cylindrical_roller.designs import carried
 from flexcage.bearings.cylindrical_roller.rib_statics import RibPairs, rib_pairs
 from flexcage.contacts.spec import Contacts
 from flexcage.core.errors import InputError
@@ -71,7 +70,7 @@ def _check_laws(bearing: RollerBearing, contacts: Contacts) -> None:
             where="contacts.race.normal.law",
             value=law,
         )
-    if any(carried(bearing)) and rib not in _AT_REST:
+    if any(bearing.carried) and rib not in _AT_REST:
         raise InputError(
             f"contacts.rib.normal.law is '{rib}', but a static solution has rollers on ribs as "
             f"{', '.join(_AT_REST)} have them at rest; take one of these.",

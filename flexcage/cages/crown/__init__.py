@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from flexcage.cages.cage_type import CageType
+from flexcage.cages.crown import slots
 from flexcage.cages.crown.cage import CrownCage
 from flexcage.cages.crown.defects import (
     BentClaw,
@@ -26,39 +25,14 @@ __all__ = [
     "WornPocket",
 ]
 
-if TYPE_CHECKING:
-    from flexcage.geometry.inside import CageProposal
-    from flexcage.mesh.build import MeshBuilder
-    from flexcage.modes.reduction import Interfaces
-    from flexcage.stress.places import Places
-
-
-def _mesh() -> MeshBuilder[CrownCage]:
-    from flexcage.cages.crown.build import build_crown_mesh
-
-    return build_crown_mesh
-
-
-def _interfaces() -> Interfaces[CrownCage]:
-    from flexcage.cages.crown.interface import CROWN_INTERFACES
-
-    return CROWN_INTERFACES
-
-
-def _places() -> Places:
-    from flexcage.cages.crown.places import CROWN_PLACES
-
-    return CROWN_PLACES
-
-
-def _proposal() -> CageProposal:
-    from flexcage.cages.crown.proposal import propose_crown_cage
-
-    return propose_crown_cage
-
-
 CAGE_TYPE = CageType(
-    name="crown", spec=CrownCage, holds=("ball",), mesh=_mesh, interfaces=_interfaces,
-    places=_places, proposal=_proposal, defect_spec=CrownDefect,
+    name="crown",
+    spec=CrownCage,
+    holds=("ball",),
+    mesh=lambda: slots.mesh,
+    interfaces=lambda: slots.interfaces,
+    places=lambda: slots.places,
+    proposal=lambda: slots.proposal,
+    defect_spec=CrownDefect,
     defects=(BentClaw, CrackedClaw, MissingClaw, WornPocket),
-)  # fmt: skip
+)

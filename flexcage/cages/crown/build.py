@@ -6,14 +6,14 @@ from collections.abc import Sequence
 
 from flexcage.cages.crown.cage import CrownCage
 from flexcage.cages.crown.defects import CrownDefect
-from flexcage.cages.crown.morph import apply_crown_defects
 from flexcage.cages.crown.sector import mesh_crown_half
-from flexcage.cages.machined.build import build_round_pockets
-from flexcage.cages.machined.measure import ENOUGH, measure_ball_file
+from flexcage.cages.round_pocket.build import build_round_pockets, measure_ball_file
+from flexcage.cages.round_pocket.measure import ENOUGH
 from flexcage.core.errors import InputError
-from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.mesh.cage_mesh import CageMesh, signed_volumes
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.sector import Quarter
+from flexcage.mesh.with_defects import add_defects
 
 
 def build_crown_mesh(
@@ -68,3 +68,25 @@ def measure_crown_file(
                 value=found,
             )
     return measured
+
+
+def apply_crown_defects(
+    mesh: CageMesh, cage: CrownCage, defects: Sequence[CrownDefect], *, pitch_radius: float
+) -> CageMesh:
+    """The undamaged mesh with all defects, each measured as it is added; InputError if inverted."""
+
+    def add(_: CageMesh, i: int) -> CageMesh:
+        made = mesh
+        for defect in sorted(defects[: i + 1], key=lambda defect: defect.removes):
+            made = defect.opened(mesh, made, cage)
+        inverted = int((signed_volumes(made.points, made.tets) <= 0.0).sum())
+        if inverted:
+            raise InputError(
+                f"the defects invert {inverted} elements of the cage's mesh; make them smaller, or "
+                "the mesh finer",
+                where="defects",
+                value=inverted,
+            )
+        return made
+
+    return add_defects(mesh, cage, defects, pitch_radius=pitch_radius, add=add)

@@ -11,16 +11,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import pi, sin, sqrt
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
-from flexcage.cages.machined.cage import BALL_CAGES, BallCage
+from flexcage.cages.round_pocket.cage import BALL_CAGES, BallCage
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe, typeset
-from flexcage.geometry.cage import Cage, Objection
+from flexcage.geometry.cage import Cage, Elements, Objection
 from flexcage.geometry.materials import MATERIALS, Material
-
-if TYPE_CHECKING:
-    from flexcage.geometry.bearing import Bearing
 
 _THINNEST = (
     0.02  # claws and ring over the pockets' diameter; elements are as small as they are thin
@@ -156,7 +153,7 @@ class CrownCage(BallCage):
         if self.pocket_scatter > 0.0:
             yield "pocket_scatter", "is of machined cages; a crown cage has its pockets evenly"
 
-    def no_room(self, bearing: Bearing) -> Iterator[Objection]:
+    def no_room(self, bearing: Elements) -> Iterator[Objection]:
         yield from self._tight(bearing)
         if not self.throat < bearing.element_diameter:
             size = describe(bearing.element_diameter, "mm")
@@ -181,7 +178,7 @@ class CrownCage(BallCage):
             "centres; make claws, roots or pockets smaller",
         )
 
-    def _over_shoulders(self, bearing: Bearing) -> Iterator[Objection]:
+    def _over_shoulders(self, bearing: Elements) -> Iterator[Objection]:
         """Claws and ring that overlap a ring's shoulder, given or assumed."""
         inner, outer = bearing.cage_space(self)
         if inner is not None and not self.bore > inner.diameter:

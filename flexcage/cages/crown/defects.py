@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from flexcage.cages.machined.defects import BallCageDefect, PocketShapes
+from flexcage.cages.crown.cage import CrownCage
+from flexcage.cages.round_pocket.defects import BallCageDefect
+from flexcage.cages.round_pocket.shapes import PocketShapes
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import mm, typeset
 from flexcage.geometry.cage import Cage
@@ -89,12 +91,6 @@ class ClawDefect(CrownDefect):
         return f"the {self.claw} claw of pocket {self.pocket}"
 
 
-def bent_share(x: np.ndarray, cage: Any) -> np.ndarray:
-    """Deflection at places x [m] over that of the tip: a cantilever's with a force at its tip."""
-    along = np.clip((x - cage.bar_height) / (cage.tip - cage.bar_height), 0.0, 1.0)
-    return 0.5 * along**2 * (3.0 - along)
-
-
 @dataclass(frozen=True, kw_only=True)
 class BentClaw(ClawDefect):
     """A claw bent as a cantilever from its bar: its tip went along the circumference, away from the
@@ -105,6 +101,8 @@ class BentClaw(ClawDefect):
 
     def move_stations(self, offset: np.ndarray, stations: np.ndarray, cage: Any) -> None:
         """Those in the opening as the tip, the one in its middle half as far."""
+        from flexcage.cages.crown.morph import bent_share
+
         cosine = np.cos(stations)
         here = np.where(np.abs(cosine) < 1e-9, 0.5, self.sign * cosine > 0.0)
         share = bent_share(0.5 * cage.pocket_diameter * np.sin(stations), cage)
@@ -123,6 +121,7 @@ class BentClaw(ClawDefect):
 
     def check(self, where: str, cage: Cage, count: int) -> Iterator[Finding]:
         yield from super().check(where, cage, count)
+        assert isinstance(cage, CrownCage)
         most = cage.tip - cage.bar_height
         if not abs(self.deflection) < most:
             yield (
@@ -169,7 +168,7 @@ class CrackedClaw(ClawDefect):
     def opened(self, sound: CageMesh, mesh: CageMesh, cage: Any) -> CageMesh:
         from flexcage.cages.crown.morph import crack_claw
 
-        return crack_claw(sound, mesh, cage, self)
+        return crack_claw(sound, mesh, cage, self.pocket, self.sign, *self.fronts(cage))
 
     def readings(self, mesh: Any, cage: Any, *, pitch_radius: float) -> list[Reading]:
         from flexcage.cages.crown.morph import crack_depth
@@ -276,6 +275,7 @@ class WornPocket(CrownDefect):
 
     def check(self, where: str, cage: Cage, count: int) -> Iterator[Finding]:
         yield from super().check(where, cage, count)
+        assert isinstance(cage, CrownCage)
         most = 0.5 * min(cage.claw_thickness, cage.ring_thickness)
         if not 0.0 < self.depth < most:
             yield (

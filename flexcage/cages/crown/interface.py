@@ -18,13 +18,13 @@ import scipy.sparse as sp
 
 from flexcage.cages.crown.cage import CrownCage
 from flexcage.cages.crown.defects import CrownDefect
-from flexcage.cages.machined.defects import PocketShapes
-from flexcage.cages.machined.interface import (
+from flexcage.cages.round_pocket.interface import (
     BallCageInterface,
     ball_cage_interface,
     rigid_ball_interface,
     station_hats,
 )
+from flexcage.cages.round_pocket.shapes import PocketShapes
 from flexcage.fem.model import FEModel
 from flexcage.modes.interface import normalised
 from flexcage.modes.pockets import pocket_frame

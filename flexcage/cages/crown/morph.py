@@ -6,7 +6,6 @@ mesh has edges in that plane where a claw may break (``sector``).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from math import pi
 from types import MappingProxyType
@@ -14,41 +13,16 @@ from types import MappingProxyType
 import numpy as np
 
 from flexcage.cages.crown.cage import CrownCage
-from flexcage.cages.crown.defects import CrackedClaw, CrownDefect, bent_share
-from flexcage.cages.machined.morph import with_doubled
-from flexcage.core.errors import InputError
+from flexcage.cages.round_pocket.crack import with_doubled
 from flexcage.geometry.defect import Line
-from flexcage.mesh.cage_mesh import CageMesh, signed_volumes
+from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.measure import in_pocket_frame
 from flexcage.mesh.ring import turn_about_x
 from flexcage.mesh.sector import orient_outward
-from flexcage.mesh.with_defects import add_defects
 
 _TINY = 1e-6  # over the cage's width
 _LEVELS = 40  # steps, each of which gains a digit or nearly
 _REACH = 0.8  # of the thinner one of claw and ring: how deep a worn wall draws the mesh along
-
-
-def apply_crown_defects(
-    mesh: CageMesh, cage: CrownCage, defects: Sequence[CrownDefect], *, pitch_radius: float
-) -> CageMesh:
-    """The undamaged mesh with all defects, each measured as it is added; InputError if inverted."""
-
-    def add(_: CageMesh, i: int) -> CageMesh:
-        made = mesh
-        for defect in sorted(defects[: i + 1], key=lambda defect: defect.removes):
-            made = defect.opened(mesh, made, cage)
-        inverted = int((signed_volumes(made.points, made.tets) <= 0.0).sum())
-        if inverted:
-            raise InputError(
-                f"the defects invert {inverted} elements of the cage's mesh; make them smaller, or "
-                "the mesh finer",
-                where="defects",
-                value=inverted,
-            )
-        return made
-
-    return add_defects(mesh, cage, defects, pitch_radius=pitch_radius, add=add)
 
 
 def _beside(points: np.ndarray, pocket: int, sign: float, count: int) -> np.ndarray:
@@ -66,6 +40,12 @@ def _cells_of_claw(
     middles = mesh.points[cells].mean(axis=1)
     above = middles[:, 0] > cage.bar_height
     return above & _beside(middles, pocket, sign, mesh.pocket_count)
+
+
+def bent_share(x: np.ndarray, cage: CrownCage) -> np.ndarray:
+    """Deflection at places x [m] over that of the tip: a cantilever's with a force at its tip."""
+    along = np.clip((x - cage.bar_height) / (cage.tip - cage.bar_height), 0.0, 1.0)
+    return 0.5 * along**2 * (3.0 - along)
 
 
 def bend_claw(
@@ -145,11 +125,13 @@ def pocket_radius(mesh: CageMesh, pocket: int, pitch_radius: float) -> float:
     return float(np.linalg.norm(at, axis=1).mean())
 
 
-def crack_claw(sound: CageMesh, mesh: CageMesh, cage: CrownCage, crack: CrackedClaw) -> CageMesh:
-    """``mesh``, numbered as ``sound`` but for earlier cracks, with one crack more."""
-    (front,) = crack.fronts(cage)
+def crack_claw(
+    sound: CageMesh, mesh: CageMesh, cage: CrownCage, pocket: int, sign: float, front: float
+) -> CageMesh:
+    """``mesh``, numbered as ``sound`` but for earlier cracks, with a claw cracked as well, from the
+    bore to the radius ``front`` [m]."""
     tiny = _TINY * cage.width
-    claw = _cells_of_claw(sound, sound.tets, cage, crack.pocket, crack.sign)
+    claw = _cells_of_claw(sound, sound.tets, cage, pocket, sign)
     shared = np.intersect1d(sound.tets[claw], sound.tets[~claw])
     inside = np.hypot(*sound.points[shared, 1:].T) < front - tiny
     old = shared[inside & (np.abs(sound.points[shared, 0] - cage.bar_height) < tiny)]
@@ -158,7 +140,7 @@ def crack_claw(sound: CageMesh, mesh: CageMesh, cage: CrownCage, crack: CrackedC
     tets = np.where(claw[:, None], copy[mesh.tets], mesh.tets)
     groups = {}
     for name, part in mesh.groups.items():
-        above = _cells_of_claw(sound, sound.groups[name], cage, crack.pocket, crack.sign)
+        above = _cells_of_claw(sound, sound.groups[name], cage, pocket, sign)
         groups[name] = np.where(above[:, None], copy[part], part)
     points = np.vstack([mesh.points, mesh.points[old]])
     info = with_doubled(mesh, old)

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from flexcage.cages.machined.places import round_walls
+from flexcage.cages.round_pocket.places import round_walls
 from flexcage.fem.model import FEModel
 from flexcage.modes.lands import LANDS
 from flexcage.modes.pockets import pocket_frame

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from flexcage.cages.cage_type import CageType
-from flexcage.cages.machined.cage import BallCage
-from flexcage.cages.machined.defects import (
+from flexcage.cages.machined import slots
+from flexcage.cages.round_pocket.cage import BallCage
+from flexcage.cages.round_pocket.defects import (
     BallCageDefect,
     DisplacedPocket,
     ElongatedPocket,
@@ -24,39 +23,14 @@ __all__ = [
     "WebCrack",
 ]
 
-if TYPE_CHECKING:
-    from flexcage.geometry.inside import CageProposal
-    from flexcage.mesh.build import MeshBuilder
-    from flexcage.modes.reduction import Interfaces
-    from flexcage.stress.places import Places
-
-
-def _mesh() -> MeshBuilder[BallCage]:
-    from flexcage.cages.machined.build import build_ball_cage_mesh
-
-    return build_ball_cage_mesh
-
-
-def _interfaces() -> Interfaces[BallCage]:
-    from flexcage.cages.machined.interface import ROUND_INTERFACES
-
-    return ROUND_INTERFACES
-
-
-def _places() -> Places:
-    from flexcage.cages.machined.places import ROUND_PLACES
-
-    return ROUND_PLACES
-
-
-def _proposal() -> CageProposal:
-    from flexcage.cages.machined.proposal import propose_machined_cage
-
-    return propose_machined_cage
-
-
 CAGE_TYPE = CageType(
-    name="machined", spec=BallCage, holds=("ball",), mesh=_mesh, interfaces=_interfaces,
-    places=_places, proposal=_proposal, defect_spec=BallCageDefect,
+    name="machined",
+    spec=BallCage,
+    holds=("ball",),
+    mesh=lambda: slots.mesh,
+    interfaces=lambda: slots.interfaces,
+    places=lambda: slots.places,
+    proposal=lambda: slots.proposal,
+    defect_spec=BallCageDefect,
     defects=(EnlargedPocket, ElongatedPocket, DisplacedPocket, WebCrack),
-)  # fmt: skip
+)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import pi, sin
 from typing import Any
 
-from flexcage.cages.machined.cage import BallCage
+from flexcage.cages.round_pocket.cage import BallCage
 from flexcage.geometry.inside import ProposedCage, rounded
 
 # over the ball's diameter

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from flexcage.cages.machined.cage import BallCage
+from flexcage.cages.round_pocket.cage import BallCage
 from flexcage.core.errors import RunFailed
 from flexcage.mesh.gmsh_session import gmsh_model
 from flexcage.mesh.options import MeshOptions

@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
-from flexcage.cages.machined.build import build_round_pockets
-from flexcage.cages.machined.defects import BallCageDefect
-from flexcage.cages.machined.measure import ENOUGH, measure_ball_file
-from flexcage.cages.machined.morph import with_doubled
 from flexcage.cages.ribbon.cage import RibbonCage
 from flexcage.cages.ribbon.defects import MissingRivet
 from flexcage.cages.ribbon.sector import mesh_ribbon_quarter
+from flexcage.cages.round_pocket.build import build_round_pockets, measure_ball_file
+from flexcage.cages.round_pocket.defects import BallCageDefect
+from flexcage.cages.round_pocket.measure import ENOUGH
 from flexcage.core.errors import InputError
 from flexcage.mesh.cage_mesh import CageMesh
-from flexcage.mesh.halves import joined_vertices
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.sector import Quarter
 
@@ -74,17 +71,3 @@ def measure_ribbon_file(
                 value=found,
             )
     return measured
-
-
-def without_rivet(mesh: CageMesh, web: int, gap: float) -> CageMesh:
-    """``mesh`` of a ribbon cage whose halves are free of each other at one web, ``gap`` [m] off the
-    middle plane each."""
-    old = joined_vertices(mesh, web)
-    copy = np.arange(len(mesh.points))
-    copy[old] = len(copy) + np.arange(len(old))
-    under = mesh.points[mesh.tets].mean(axis=1)[:, 0] < 0.0
-    tets = np.where(under[:, None], copy[mesh.tets], mesh.tets)
-    points = np.vstack([mesh.points, mesh.points[old]])
-    points[old, 0], points[len(copy) :, 0] = gap, -gap
-    info = with_doubled(mesh, old)
-    return replace(mesh, points=points, tets=tets, info=info)  # no group has a face on that plane

@@ -11,17 +11,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import pi, sin, sqrt
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
-from flexcage.cages.machined.cage import BALL_CAGES, BallCage
+from flexcage.cages.round_pocket.cage import BALL_CAGES, BallCage
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe, typeset
-from flexcage.geometry.cage import Cage, Objection
+from flexcage.geometry.cage import Cage, Elements, Objection
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.riveted_joint import JointShape
-
-if TYPE_CHECKING:
-    from flexcage.geometry.bearing import Bearing
 
 HEAD = 1.75  # a round head's diameter over its rivet's, and
 HEAD_HEIGHT = 0.6  # its height, likewise (ISO 1051)
@@ -152,7 +149,7 @@ class RibbonCage(BallCage):
         if self.pocket_scatter > 0.0:
             yield "pocket_scatter", "is of machined cages; a ribbon cage has its pockets evenly"
 
-    def no_room(self, bearing: Bearing) -> Iterator[Objection]:
+    def no_room(self, bearing: Elements) -> Iterator[Objection]:
         pitch_diameter, pocket_count = bearing.pitch_diameter, bearing.element_count
         yield from self._tight(bearing)
         yield from self._low_rim(pitch_diameter)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from flexcage.cages.machined.defects import BallCageDefect, find_repeated
+from flexcage.cages.round_pocket.defects import BallCageDefect, find_repeated
 from flexcage.core.spec import option
 from flexcage.geometry.defect import Finding, Line, Mark, Reading, defect_type
 
@@ -27,7 +27,7 @@ class MissingRivet(BallCageDefect):
     web: int = option(doc="web number, 0 .. Z-1; web k is between pockets k-1 and k", minimum=0)
 
     def opened(self, sound: CageMesh, mesh: CageMesh, cage: Any) -> CageMesh:
-        from flexcage.cages.ribbon.build import without_rivet
+        from flexcage.cages.ribbon.rivet import without_rivet
         from flexcage.cages.ribbon.sector import stand_off
 
         return without_rivet(mesh, self.web, stand_off(cage))

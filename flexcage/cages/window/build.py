@@ -25,7 +25,7 @@ def build_window_mesh(
 ) -> CageMesh:
     """Mesh of a window cage with its defects, or the user's own file checked against both."""
     cage.check(pocket_count)
-    cage.check_defects(defects, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
+    WindowDefect.check_all(defects, cage, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
     if options.file:
         return _from_file(cage, pocket_count, pitch_diameter, defects, options)
     return _built(cage, pocket_count, pitch_diameter, defects, options)

@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import hypot, pi, sin
-from typing import TYPE_CHECKING, Any, ClassVar
-
-import numpy as np
+from typing import ClassVar
 
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import mm, typeset
-from flexcage.geometry.cage import Cage, Objection, cages_of
-
-if TYPE_CHECKING:
-    from flexcage.geometry.bearing import Bearing
+from flexcage.geometry.cage import Cage, Elements, Objection, cages_of
 
 _SHARPEST = 1e-4  # fillet, of the pocket's smaller side; smaller ones are lost in its mesh
-_PINCH_LIMIT = 0.1  # of an element's size: far beyond what any cage material survives
 GUIDANCE = ("roller", "inner", "outer")
 ROLLER_CAGES = cages_of("roller")
 
@@ -53,18 +47,9 @@ class WindowCage(Cage):
     def pocket_size(self) -> float:
         return self.pocket_width
 
-    def check_defects(
-        self,
-        defects: Sequence[Any],
-        *,
-        pocket_count: int,
-        pitch_diameter: float,
-        element_diameter: float = 0.0,
-    ) -> None:
-        from flexcage.cages.window.defects import check_pocket_sizes
-
-        super().check_defects(defects, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
-        check_pocket_sizes(defects, self, pocket_count=pocket_count)
+    @property
+    def pocket_reach(self) -> float:
+        return 0.5 * self.pocket_length
 
     def thinnest(self, pitch_diameter: float, pocket_count: int) -> float:
         beam = pi * pitch_diameter / pocket_count - self.pocket_width
@@ -111,7 +96,7 @@ class WindowCage(Cage):
                 f"is a sharp corner; it must be at least {mm(2.0 * _SHARPEST * half)}",
             )
 
-    def no_room(self, bearing: Bearing) -> Iterator[Objection]:
+    def no_room(self, bearing: Elements) -> Iterator[Objection]:
         for name, size, own, what in (
             ("pocket_width", self.pocket_width, bearing.element_diameter, "diameter"),
             ("pocket_length", self.pocket_length, bearing.element_length, "length"),
@@ -124,7 +109,7 @@ class WindowCage(Cage):
                 )
         yield from self._edges_in_fillets(bearing)
 
-    def _edges_in_fillets(self, bearing: Bearing) -> Iterator[Objection]:
+    def _edges_in_fillets(self, bearing: Elements) -> Iterator[Objection]:
         edge = bearing.element_edge
         aside = self.fillet_radius - edge - 0.5 * (self.pocket_width - bearing.element_diameter)
         along = self.fillet_radius - edge - 0.5 * (self.pocket_length - bearing.element_length)
@@ -136,33 +121,3 @@ class WindowCage(Cage):
                 f"radius of {mm(edge)}, lie {mm(depth)} inside the fillets; make it smaller, or "
                 "the pockets larger",
             )
-
-    def pocket_clearances(
-        self, bearing: Bearing, defects: Sequence[Any] = ()
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Circumferential and axial clearance (Z,), (Z,) [m] of every pocket, at its middle.
-
-        Negative where an element is pinched.
-        """
-        from flexcage.cages.window.defects import pocket_changes
-
-        width, length = pocket_changes(defects, pocket_count=bearing.element_count)
-        return (
-            self.pocket_width - bearing.element_diameter + width,
-            self.pocket_length - bearing.element_length + length,
-        )
-
-    def interference(self, bearing: Bearing, defects: Sequence[Any]) -> Iterator[tuple[str, str]]:
-        widths, lengths = self.pocket_clearances(bearing, defects)
-        for what, clearance, size in (
-            ("width", widths, bearing.element_diameter),
-            ("length", lengths, bearing.element_length),
-        ):
-            pocket = int(np.argmin(clearance))
-            if clearance[pocket] < -_PINCH_LIMIT * size:
-                yield (
-                    "defects",
-                    f"The defects leave pocket {pocket} a {what} of "
-                    f"{mm(clearance[pocket] + size)} for a {bearing.element} of {mm(size)}; no "
-                    f"assembly can take more than {_PINCH_LIMIT * 100:.0f} % of interference.",
-                )

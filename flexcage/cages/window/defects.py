@@ -16,13 +16,17 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from math import copysign, cos, pi, sin
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
+from flexcage.cages.window.cage import WindowCage
+from flexcage.cages.window.faces import FACE_SIGN, FACES, face_position
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import mm, typeset
+from flexcage.geometry.bearing import Bearing
+from flexcage.geometry.cage import Cage
 from flexcage.geometry.defect import (
     CageDefect,
     Finding,
@@ -32,13 +36,9 @@ from flexcage.geometry.defect import (
     defect_type,
     signed_mm,
 )
+from flexcage.mesh.measure import in_pocket_frame
 
-if TYPE_CHECKING:
-    from flexcage.cages.window.cage import WindowCage
-
-#: Faces of a pocket, and on which side of its middle each lies.
-FACE_SIGN = {"front": 1.0, "rear": -1.0, "side+x": 1.0, "side-x": -1.0}
-FACES = tuple(FACE_SIGN)
+_PINCH_LIMIT = 0.1  # of an element's size: far beyond what any cage material survives
 _LEGEND = (
     Mark("patch", "smaller", "pocket made narrower or shorter"),
     Mark("patch", "larger", "pocket made wider or longer"),
@@ -73,6 +73,37 @@ class WindowDefect(CageDefect):
                 found[pocket, i] = moved @ normal
         return found
 
+    @classmethod
+    def check_all(
+        cls, defects: Sequence[Any], cage: Cage, *, pocket_count: int, pitch_diameter: float,
+        element_diameter: float = 0.0,
+    ) -> None:  # fmt: skip
+        super().check_all(
+            defects, cage, pocket_count=pocket_count, pitch_diameter=pitch_diameter,
+            element_diameter=element_diameter,
+        )  # fmt: skip
+        assert isinstance(cage, WindowCage)
+        _check_sizes(defects, cage, pocket_count)
+
+    @classmethod
+    def interference(
+        cls, defects: Sequence[Any], cage: Cage, bearing: Bearing
+    ) -> Iterator[tuple[str, str]]:
+        assert isinstance(cage, WindowCage)
+        widths, lengths = pocket_clearances(cage, bearing, defects)
+        for what, clearance, size in (
+            ("width", widths, bearing.element_diameter),
+            ("length", lengths, bearing.element_length),
+        ):
+            pocket = int(np.argmin(clearance))
+            if clearance[pocket] < -_PINCH_LIMIT * size:
+                yield (
+                    "defects",
+                    f"The defects leave pocket {pocket} a {what} of "
+                    f"{mm(clearance[pocket] + size)} for a {bearing.element} of {mm(size)}; no "
+                    f"assembly can take more than {_PINCH_LIMIT * 100:.0f} % of interference.",
+                )
+
     def changes(self, count: int) -> dict[tuple[int, str], float]:
         """Outward displacement [m] of pockets' faces at the pitch radius, mid-pocket."""
         return {}
@@ -84,8 +115,6 @@ class WindowDefect(CageDefect):
     def readings(self, mesh: Any, cage: Any, *, pitch_radius: float) -> Sequence[Reading]:
         """How far the faces that it moves are from their nominal places; those that move as much,
         together and in the sense of the last of them."""
-        from flexcage.cages.window.measure import face_position
-
         changes = self.changes(mesh.pocket_count)
         alike: dict[float, list[tuple[float, float]]] = {}
         for (pocket, face), change in changes.items():
@@ -123,8 +152,6 @@ class CrossbeamDefect(WindowDefect):
 
     def displace(self, points: np.ndarray, cage: WindowCage, *, pocket_count: int) -> np.ndarray:
         """Translation of the crossbeam along its own tangent; > 0 towards pocket k-1."""
-        from flexcage.mesh.measure import in_pocket_frame
-
         half = pi / pocket_count
         _, radial, tangential = in_pocket_frame(points, self.place, pocket_count).T
         near = np.abs(np.arctan2(tangential, radial)) < half * (1.0 + 1e-9)  # up to mid-pockets
@@ -135,8 +162,6 @@ class CrossbeamDefect(WindowDefect):
 
     def _field(self, points: np.ndarray, cage: WindowCage, pocket_count: int) -> np.ndarray:
         """Share (n,) of the displacement near the crossbeam: 1 at the middle of its faces."""
-        from flexcage.mesh.measure import in_pocket_frame
-
         x = points[:, 0]
         if self.shape == "bent":  # zero with zero slope where the side beams begin
             return self.profile(x, cage.pocket_length)
@@ -208,8 +233,6 @@ class SideBeamDefect(WindowDefect):
 
     def displace(self, points: np.ndarray, cage: WindowCage, *, pocket_count: int) -> np.ndarray:
         """Translation of the side beam along x; > 0 away from the pocket's middle."""
-        from flexcage.mesh.measure import in_pocket_frame
-
         x, radial, tangential = in_pocket_frame(points, self.pocket, pocket_count).T
         here = (self.sign * x > 0.0) & (radial > 0.0)  # others' beams have |t| > half a width
         shape = np.where(here, clamped_beam(tangential, cage.pocket_width), 0.0)
@@ -278,9 +301,21 @@ def pocket_changes(
     return width, length
 
 
-def check_pocket_sizes(
-    defects: Sequence[WindowDefect], cage: WindowCage, *, pocket_count: int
-) -> None:
+def pocket_clearances(
+    cage: WindowCage, bearing: Bearing, defects: Sequence[WindowDefect] = ()
+) -> tuple[np.ndarray, np.ndarray]:
+    """Circumferential and axial clearance (Z,), (Z,) [m] of every pocket, at its middle.
+
+    Negative where an element is pinched.
+    """
+    width, length = pocket_changes(defects, pocket_count=bearing.element_count)
+    return (
+        cage.pocket_width - bearing.element_diameter + width,
+        cage.pocket_length - bearing.element_length + length,
+    )
+
+
+def _check_sizes(defects: Sequence[WindowDefect], cage: WindowCage, pocket_count: int) -> None:
     """Refuse defects that together leave a pocket no width or length."""
     width, length = pocket_changes(defects, pocket_count=pocket_count)
     for what, sizes in (

@@ -9,64 +9,21 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from math import cos, radians, sin
 from pathlib import Path
 
 import numpy as np
 
+from flexcage.mesh.files.deck import NO_SHIFT, Deck, Part
 from flexcage.mesh.files.keywords import WRITTEN_OUT, Block, blocks, real, reals, refuse, whole
 from flexcage.mesh.files.raw import RawMesh, Refused, listed, text_of
-from flexcage.mesh.files.sets import Sets, key_of
+from flexcage.mesh.files.sets import key_of
+from flexcage.mesh.files.surfaces import surfaces_of
 
 _ASSEMBLY = "*"  # scope of what stands in the assembly itself
-_NO_SHIFT = (0.0, 0.0, 0.0)
 _TETRA = re.compile(r"(?:A|D|Q)?C3D(4|10)(?!\d)")
 _SOLID = re.compile(r"(?:A|D|Q)?C3D|SC\d|CCL")
 _SHELL = re.compile(r"(?:S|DS|STRI|R3D|M3D|SFM3D|F3D|CP[ESG]+|DC2D)(3|6|65)(?!\d)")
-
-
-@dataclass
-class Part:
-    """Nodes and elements of a part, an instance with a mesh of its own, or a deck without parts."""
-
-    nodes: dict[int, list[float]] = field(default_factory=dict)
-    elements: dict[int, tuple[str, list[int]]] = field(default_factory=dict)  # kind, node numbers
-    others: dict[int, str] = field(default_factory=dict)  # elements of no use here: their type
-    first: int = 0  # line
-
-    @property
-    def has_solids(self) -> bool:
-        return any(kind.startswith("tetra") for kind, _ in self.elements.values())
-
-
-@dataclass
-class Deck:
-    """What a deck says: parts, their instances, sets and surfaces."""
-
-    parts: dict[str, Part] = field(default_factory=dict)
-    part_of: dict[str, str] = field(default_factory=dict)  # instance -> part
-    moves: dict[str, Block] = field(default_factory=dict)  # instance -> its block
-    elsets: Sets = field(default_factory=lambda: Sets("element"))
-    nsets: Sets = field(default_factory=lambda: Sets("node"))
-    surfaces: dict[tuple[str, str], list[Block]] = field(default_factory=dict)
-    names: dict[str, str] = field(default_factory=dict)  # of parts, in their own capitals
-    scope: str = ""
-    shift: tuple[float, float, float] = _NO_SHIFT  # of nodes, by *SYSTEM
-
-    def here(self, block: Block) -> Part:
-        """The part that a block is of."""
-        part = self.parts.setdefault(self.scope, Part())
-        part.first = part.first or block.line
-        return part
-
-    def owner(self, block: Block) -> str:
-        """The part that a set's numbers are of: that of its instance, or where it stands."""
-        instance = key_of(block.values.get("INSTANCE", ""))
-        return self.part_of.get(instance, instance) if instance else self.scope
-
-    def label(self, part: str) -> str:
-        return f"'{self.names.get(part, part)}'" if part else "the deck itself"
 
 
 def read_deck(path: Path, *, nodes_alone: bool = False) -> Deck:
@@ -90,7 +47,7 @@ def read_deck(path: Path, *, nodes_alone: bool = False) -> Deck:
 def _part(deck: Deck, block: Block) -> None:
     block.only("NAME")
     deck.scope = key_of(block.values.get("NAME", ""))
-    deck.names[deck.scope], deck.shift = block.values.get("NAME", ""), _NO_SHIFT
+    deck.names[deck.scope], deck.shift = block.values.get("NAME", ""), NO_SHIFT
 
 
 def _assembly(deck: Deck, block: Block) -> None:
@@ -106,7 +63,7 @@ def _instance(deck: Deck, block: Block) -> None:
 
 
 def _end(deck: Deck, block: Block) -> None:
-    deck.scope, deck.shift = _ASSEMBLY if block.keyword == "END INSTANCE" else "", _NO_SHIFT
+    deck.scope, deck.shift = _ASSEMBLY if block.keyword == "END INSTANCE" else "", NO_SHIFT
 
 
 def _system(deck: Deck, block: Block) -> None:
@@ -212,8 +169,6 @@ _KEYWORDS: dict[str, Callable[[Deck, Block], None]] = {
 def read_inp(path: Path) -> RawMesh:
     """The mesh of a deck: the one part of tetrahedra, where its instance puts it. Raises
     ``Refused``."""
-    from flexcage.mesh.files.surfaces import surfaces_of
-
     deck = read_deck(path)
     own = _with_solids(deck)
     part = deck.parts.get(own, Part())

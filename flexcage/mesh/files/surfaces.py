@@ -5,14 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import TYPE_CHECKING
 
+from flexcage.mesh.files.deck import Deck, Part
 from flexcage.mesh.files.keywords import Block
 from flexcage.mesh.files.raw import Refused, group_name, listed
 from flexcage.mesh.files.sets import Member, key_of
-
-if TYPE_CHECKING:
-    from flexcage.mesh.files.abaqus import Deck, Part
 
 # faces S1 to S4 of a tetrahedron (Abaqus Analysis User's Guide, 28.1.4), by its corners
 FACES = {"S1": (0, 1, 2), "S2": (0, 3, 1), "S3": (1, 3, 2), "S4": (2, 3, 0)}

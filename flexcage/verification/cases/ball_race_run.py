@@ -95,7 +95,7 @@ def sliding_rows() -> Iterator[Row]:
         raise RunFailed("a ball touched the inner race: the closed form is not tried")
     speed = ds["element_velocity"].sel(cyl="psi").mean("element").values
     spin = -ds["element_omega"].sel(spin_axis="axial").mean("element").values
-    time, size = ds["time"].values, 0.5 * case.bearing.ball_diameter
+    time, size = ds["time"].values, 0.5 * case.bearing.element_diameter
     rolling = 0.4 * radius / (MU * first)  # when first/(1 + mu first t/r) is 5/7 of the first
     for share in (0.25, 0.5, 0.75):
         at = int(np.argmin(np.abs(time - share * rolling)))

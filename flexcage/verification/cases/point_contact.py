@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import log, pi, sqrt
 
-from flexcage.case.presets import load_preset
 from flexcage.geometry.hertz import PointContact
+from flexcage.verification.inside import ball_bearing
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 
 # preset and race: axis ratio, E, F, delta*, K [N/mm^1.5]; semi-axes [mm], pressure [MPa] at 100 N
@@ -48,7 +48,7 @@ def fitted(contact: PointContact) -> dict[str, float]:
 
 def rows() -> Iterator[Row]:
     for (name, race), expected in TABLE.items():
-        bearing = load_preset(name).bearing
+        bearing = ball_bearing(name)
         where = f"{name}, {('inner', 'outer')[race]} race"
         contact = bearing.contacts[race]
         ratio, second, first, factor, stiffness, long, short, pressure = expected
@@ -63,7 +63,7 @@ def rows() -> Iterator[Row]:
         found = 1e-6 * float(contact.pressure(100.0))
         yield Row(f"{where}: pressure", "MPa", pressure, found, PRINTED)
     for name, race, what, error in FITTED:
-        contact = load_preset(name).bearing.contacts[race]
+        contact = ball_bearing(name).contacts[race]
         exact = {"axis ratio": contact.ratio, "K": contact.stiffness}[what]
         found = 100.0 * (fitted(contact)[what] / exact - 1.0)
         where = f"{name}, {('inner', 'outer')[race]} race"

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from flexcage.verification.cases.impact import TABLE
+from flexcage.verification.inside import rollers_of
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 from flexcage.verification.n1013 import LOSSLESS, bearing_of, march, n1013, state_at_rest
 
@@ -37,7 +38,7 @@ def flight(*tables: Mapping[str, object]) -> tuple[np.ndarray, np.ndarray, np.nd
     return (
         ds["race_force"].sel(race="outer").values,
         ds["element_position"].sel(cyl="r").values
-        - (case.bearing.outer_race_radius - 0.5 * case.bearing.roller_diameter),
+        - (rollers_of(case).outer_race_radius - 0.5 * case.bearing.element_diameter),
         ds["element_velocity"].sel(cyl="r").values,
         1.0 / case.output.rate,
     )

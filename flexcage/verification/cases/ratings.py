@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from flexcage.case.presets import load_preset, preset_names
+from flexcage.verification.inside import roller_bearing
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 
 # ISO 281:2007, factor f_c of radial roller bearings against Dwe cos(alpha)/Dpw
@@ -20,12 +21,13 @@ CATALOGUE = Tolerance(0.01, "makers round ratings to two or three digits")
 
 def geometry_factor(gamma: float) -> float:
     """f_c [N and mm] at Dw/Dpw, from the rating b_m f_c Lwe^7/9 Z^3/4 Dw^29/27 of a bearing."""
-    bearing = load_preset("N1013").bearing
+    bearing = roller_bearing("N1013")
     length, diameter = 1e3 * bearing.effective_length, 1e3 * bearing.roller_diameter
     size = length ** (7.0 / 9.0) * bearing.roller_count**0.75 * diameter ** (29.0 / 27.0)
     pitch, roller = bearing.roller_diameter / gamma, bearing.roller_diameter
-    races = {"inner_race_diameter": pitch - roller, "outer_race_diameter": pitch + roller}
-    wanted = replace(bearing, **races)
+    wanted = replace(
+        bearing, inner_race_diameter=pitch - roller, outer_race_diameter=pitch + roller
+    )
     return float(wanted.dynamic_rating / (1.1 * size))
 
 

@@ -7,12 +7,12 @@ from math import pi
 
 import numpy as np
 
-from flexcage.case.presets import load_preset
 from flexcage.contacts import laws
 from flexcage.contacts.spec import FrictionLaw
 from flexcage.geometry.kinematics import epicyclic
 from flexcage.spec import RollerProfile
 from flexcage.verification.cases.roller_statics import bearing, solution
+from flexcage.verification.inside import roller_bearing
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 from flexcage.verification.law_values import coefficient
 
@@ -28,7 +28,7 @@ ROUNDED = Tolerance(5e-5, "printed to 1e-3 N and m/s")
 
 
 def rows() -> Iterator[Row]:
-    b = load_preset("N1013").bearing
+    b = roller_bearing("N1013")
     slices = ((np.arange(30) + 0.5) / 30 - 0.5) * b.effective_length
     drop = 1e6 * b.profile.drop(slices, diameter=b.roller_diameter, length=b.effective_length)
     for k, expected in enumerate(PROFILE):

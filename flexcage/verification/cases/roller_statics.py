@@ -9,7 +9,6 @@ from math import radians
 import numpy as np
 
 from flexcage.bearings import statics_of
-from flexcage.case.presets import load_preset
 from flexcage.contacts.spec import Contacts, NormalLaw, PairSpec
 from flexcage.spec import RollerBearing, RollerProfile
 from flexcage.system.spec import Load
@@ -25,6 +24,7 @@ from flexcage.verification.cases.static_load import (
     TURNING,
     UNPROFILED,
 )
+from flexcage.verification.inside import roller_bearing
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 
 # radial clearance [um]: displacement [um], load zone eps and largest force [N] of Sjoevall's
@@ -44,7 +44,7 @@ SAME = Tolerance(1e-4, "printed to four digits or more; small angles on both sid
 
 def bearing(clearance: float, *, profile: str = "straight") -> RollerBearing:
     """The preset at a radial clearance [um]."""
-    found = load_preset("N1013").bearing
+    found = roller_bearing("N1013")
     return replace(found, radial_clearance=clearance * 1e-6, profile=RollerProfile(kind=profile))
 
 
@@ -66,7 +66,7 @@ def displacement(of: StaticSolution) -> float:
 
 def spread_rows() -> Iterator[Row]:
     """Many soft rollers: Sjoevall's integrals."""
-    share = load_preset("N1013").bearing.roller_count / MANY
+    share = roller_bearing("N1013").roller_count / MANY
     for clearance, (moved, zone, largest) in SPREAD.items():
         found = solution(replace(bearing(clearance), roller_count=MANY), factor=share)
         force = found.elements.force[:, 0]

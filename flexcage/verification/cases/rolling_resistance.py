@@ -10,10 +10,10 @@ import numpy as np
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from flexcage.case.presets import load_preset
 from flexcage.contacts import laws
 from flexcage.contacts.spec import Lubricant
 from flexcage.geometry.hertz import PointContact
+from flexcage.verification.inside import ball_bearing
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 from flexcage.verification.law_values import rolling
 
@@ -54,7 +54,7 @@ def ball_force(
 
 
 def ball_rows() -> Iterator[Row]:
-    contact = load_preset("7010C-PA66").bearing.contacts[0]
+    contact = ball_bearing("7010C-PA66").contacts[0]
     force = ball_force(OIL, contact)
     yield Row("ball, 255 N at 13.37 m/s", "N", 0.1435, force, PRINTED)
     doubled = {

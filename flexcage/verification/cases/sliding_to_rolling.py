@@ -85,7 +85,7 @@ def race_rows() -> Iterator[Row]:
     speed = ds["element_velocity"].sel(cyl="psi").values
     spin = -ds["element_omega"].sel(spin_axis="axial").values
     radius, time = float(ds["element_position"].sel(cyl="r")[0, 0]), ds["time"].values
-    first, size = float(u[0, 2]), 0.5 * case.bearing.roller_diameter
+    first, size = float(u[0, 2]), 0.5 * case.bearing.element_diameter
     rolling = radius / (2.0 * MU * first)  # when first/(1 + mu first t/r) is 2/3 of the first
     for share in (0.25, 0.5, 0.75):
         at = int(np.argmin(np.abs(time - share * rolling)))
@@ -97,7 +97,7 @@ def race_rows() -> Iterator[Row]:
     yield Row("speed when it rolls", "m/s", first / 1.5, speed[-1].mean(), CREEP)
     yield Row("surface speed of spin then", "m/s", first / 1.5, size * spin[-1].mean(), CREEP)
     lost = -float(ds["work"].sel(channel="race_friction")[-1])
-    mass = case.bearing.roller_count * case.bearing.roller_mass
+    mass = case.bearing.element_count * case.bearing.element_mass
     yield Row("energy lost to friction", "J", mass * first**2 / 6.0, lost, CREEP)
 
 

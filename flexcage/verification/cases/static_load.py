@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.system.start import find_start
+from flexcage.verification.inside import rollers_of
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 from flexcage.verification.n1013 import bearing_of, n1013
 
@@ -63,7 +64,7 @@ def sharing(clearance: float, *tables: Mapping[str, object]) -> Sharing:
     bearing.residual(0.0, start.y, start.yd, 2)
     race = bearing.data.work.report.race[:, :, 0]
     q = bearing.layout.q(start.y)
-    path = case.bearing.outer_race_radius - 0.5 * case.bearing.roller_diameter
+    path = rollers_of(case).outer_race_radius - 0.5 * case.bearing.element_diameter
     return Sharing(
         1e6 * float(np.hypot(*q["inner"][1:3])), race[:, 0].copy(), race[:, 1].copy(),
         1e6 * (q["elements"][:, 1] - path),

@@ -7,17 +7,9 @@ from math import pi
 
 import numpy as np
 
-from flexcage.cages.machined.cage import BallCage
-from flexcage.cages.machined.defects import (
-    BallCageDefect,
-    PocketShapes,
-    is_sphere,
-    pocket_shapes,
-)
-from flexcage.core.errors import InputError
+from flexcage.cages.round_pocket.shapes import PocketShapes
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.measure import in_pocket_frame
-from flexcage.mesh.with_defects import with_measured
 
 _OPPOSITE = np.array([[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]])
 ENOUGH = 20e-6  # m, to which a user's mesh must agree with the case
@@ -78,36 +70,3 @@ def crack_length(mesh: CageMesh, web: int, side: str) -> float:
 def _keys(faces: np.ndarray, n: int) -> np.ndarray:
     a, b, c = faces.astype(np.int64).T
     return (a * n + b) * n + c
-
-
-def measure_ball_file(
-    mesh: CageMesh,
-    cage: BallCage,
-    defects: Sequence[BallCageDefect],
-    *,
-    pitch_radius: float,
-    source: str,
-) -> CageMesh:
-    """A user's mesh with its defects measured; refused if a pocket is not what the case says."""
-    count = mesh.pocket_count
-    asked = pocket_shapes(cage, defects, pocket_count=count)
-    found = measure_pockets(
-        mesh, range(count), pitch_radius=pitch_radius, spherical=is_sphere(cage)
-    )
-    sizes = {
-        "shifted axially by": (asked.centre[:, 0], found.centre[:, 0]),
-        "shifted circumferentially by": (asked.centre[:, 1], found.centre[:, 1]),
-        "long": (2.0 * (asked.radius + asked.slot[:, 0]), 2.0 * (found.radius + found.slot[:, 0])),
-        "wide": (2.0 * (asked.radius + asked.slot[:, 1]), 2.0 * (found.radius + found.slot[:, 1])),
-    }
-    for name, (should, is_) in sizes.items():
-        worst = int(np.argmax(np.abs(is_ - should)))
-        if abs(is_[worst] - should[worst]) > ENOUGH:
-            raise InputError(
-                f"{source}: pocket {worst} is {name} {is_[worst] * 1e3:.3f} mm, but the case says "
-                f"{should[worst] * 1e3:.3f} mm; give the cage and the defects that the file "
-                "contains",
-                where=f"mesh.file pocket{worst}",
-                value=float(is_[worst]),
-            )
-    return with_measured(mesh, cage, defects, pitch_radius=pitch_radius)

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import hypot, pi, sin
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import ClassVar
 
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe, typeset
-from flexcage.geometry.cage import Cage, Objection, cages_of
+from flexcage.geometry.cage import Cage, Elements, Objection, cages_of
 from flexcage.geometry.materials import MATERIALS, Material
-
-if TYPE_CHECKING:
-    from flexcage.geometry.bearing import Bearing
 
 POCKET_SHAPES = ("cylindrical", "spherical")
 GUIDANCE = ("ball", "inner", "outer")
@@ -44,27 +41,9 @@ class BallCage(Cage):
     def pocket_size(self) -> float:
         return self.pocket_diameter
 
-    def check_defects(
-        self,
-        defects: Sequence[Any],
-        *,
-        pocket_count: int,
-        pitch_diameter: float,
-        element_diameter: float = 0.0,
-    ) -> None:
-        from flexcage.cages.machined.defects import check_pockets
-
-        super().check_defects(defects, pocket_count=pocket_count, pitch_diameter=pitch_diameter)
-        if self.pockets_vary:
-            check_pockets(
-                defects, self, pocket_count=pocket_count, pitch_diameter=pitch_diameter,
-                ball_diameter=element_diameter,
-            )  # fmt: skip
-
-    def uneven_pockets(self, pocket_count: int, seed: int) -> tuple[Any, ...]:
-        from flexcage.cages.machined.defects import displaced_at_random
-
-        return displaced_at_random(self, pocket_count, seed)
+    @property
+    def pocket_reach(self) -> float:
+        return 0.5 * self.pocket_diameter
 
     def in_words(self) -> str:
         across = typeset(self.pocket_diameter, "mm")
@@ -127,7 +106,7 @@ class BallCage(Cage):
                 f"than {describe(chord, 'mm')}",
             )
 
-    def no_room(self, bearing: Bearing) -> Iterator[Objection]:
+    def no_room(self, bearing: Elements) -> Iterator[Objection]:
         yield from self._tight(bearing)
         yield from self._low_rim(bearing.pitch_diameter)
         chord = bearing.pitch_diameter * sin(pi / bearing.element_count)
@@ -138,7 +117,7 @@ class BallCage(Cage):
                 f"{describe(chord, 'mm')}",
             )
 
-    def _tight(self, bearing: Bearing) -> Iterator[Objection]:
+    def _tight(self, bearing: Elements) -> Iterator[Objection]:
         """Pockets that no ball goes into."""
         if self.pocket_diameter <= bearing.element_diameter:
             size = describe(bearing.element_diameter, "mm")

@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from flexcage.cages.machined.cage import BallCage
+from flexcage.cages.round_pocket.cage import BallCage
+from flexcage.cages.round_pocket.shapes import PocketShapes, is_sphere, level_radius, web_thickness
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import mm, typeset
@@ -48,6 +49,34 @@ _HOLES = (
 @dataclass(frozen=True, kw_only=True)
 class BallCageDefect(CageDefect):
     """A defect of a cage with round pockets: it alters walls, or opens the mesh."""
+
+    @classmethod
+    def check_all(
+        cls, defects: Sequence[Any], cage: Cage, *, pocket_count: int, pitch_diameter: float,
+        element_diameter: float = 0.0,
+    ) -> None:  # fmt: skip
+        super().check_all(
+            defects, cage, pocket_count=pocket_count, pitch_diameter=pitch_diameter,
+            element_diameter=element_diameter,
+        )  # fmt: skip
+        assert isinstance(cage, BallCage)
+        if cage.pockets_vary:
+            check_pockets(
+                defects, cage, pocket_count=pocket_count, pitch_diameter=pitch_diameter,
+                ball_diameter=element_diameter,
+            )  # fmt: skip
+
+    @classmethod
+    def by_chance(cls, cage: Cage, pocket_count: int, seed: int) -> tuple[CageDefect, ...]:
+        """Pockets displaced around a cage at random by its ``pocket_scatter``, not on average."""
+        assert isinstance(cage, BallCage)
+        if cage.pocket_scatter == 0.0:
+            return ()
+        shift = np.random.default_rng([seed, _SPACING]).standard_normal(pocket_count)
+        shift = cage.pocket_scatter * (shift - shift.mean())
+        return tuple(
+            DisplacedPocket(pocket=k, circumferential=float(s)) for k, s in enumerate(shift)
+        )
 
     def alter(self, shapes: PocketShapes) -> None:
         """Add what it changes of the pockets' walls to their shapes."""
@@ -225,12 +254,12 @@ class WebCrack(BallCageDefect):
         return (abs(0.5 - self.share) * cage.width,)
 
     def opened(self, sound: CageMesh, mesh: CageMesh, cage: Any) -> CageMesh:
-        from flexcage.cages.machined.morph import open_crack
+        from flexcage.cages.round_pocket.crack import open_crack
 
-        return open_crack(sound, mesh, cage, self)
+        return open_crack(sound, mesh, cage, self.web, self.side, self.share)
 
     def readings(self, mesh: Any, cage: Any, *, pitch_radius: float) -> list[Reading]:
-        from flexcage.cages.machined.measure import crack_length
+        from flexcage.cages.round_pocket.measure import crack_length
 
         length = crack_length(mesh, self.web, self.side)
         return [Reading(self.type, self.share * cage.width, [length])]
@@ -286,30 +315,10 @@ def find_repeated(webs: list[int], what: str) -> Iterator[Finding]:
 
 
 def _measured(mesh: CageMesh, cage: BallCage, pocket: int, pitch_radius: float) -> PocketShapes:
-    from flexcage.cages.machined.measure import measure_pockets
+    from flexcage.cages.round_pocket.measure import measure_pockets
 
     sphere = is_sphere(cage)
     return measure_pockets(mesh, [pocket], pitch_radius=pitch_radius, spherical=sphere)
-
-
-def displaced_at_random(
-    cage: BallCage, pocket_count: int, seed: int
-) -> tuple[DisplacedPocket, ...]:
-    """Pockets displaced around a ball cage at random by its ``pocket_scatter``, not on average."""
-    if cage.pocket_scatter == 0.0:
-        return ()
-    shift = np.random.default_rng([seed, _SPACING]).standard_normal(pocket_count)
-    shift = cage.pocket_scatter * (shift - shift.mean())
-    return tuple(DisplacedPocket(pocket=k, circumferential=float(s)) for k, s in enumerate(shift))
-
-
-@dataclass(frozen=True)
-class PocketShapes:
-    """Where the wall of every pocket is, with its defects."""
-
-    centre: np.ndarray  # (Z, 2) axial and circumferential shift of the axis [m] at pitch radius
-    radius: np.ndarray  # (Z,) [m]
-    slot: np.ndarray  # (Z, 2) half straight lengths along x and psi [m]
 
 
 def pocket_shapes(
@@ -324,54 +333,6 @@ def pocket_shapes(
     for defect in defects:
         defect.alter(shapes)
     return shapes
-
-
-def wall_reach(direction: np.ndarray, radius: float | np.ndarray, slot: np.ndarray) -> np.ndarray:
-    """Distance (n,) [m] from a slot's middle to its wall along unit directions (n, 2) in x, psi.
-
-    ``radius`` [m] is that of all or of each direction (n,).
-    """
-    along, half = np.abs(direction), np.asarray(slot, float)
-    radius = np.broadcast_to(radius, len(along))
-    with np.errstate(
-        divide="ignore", invalid="ignore"
-    ):  # to the straight walls at +-psi and at +-x
-        flat = (half[::-1] + radius[:, None]) / along[:, ::-1]
-    straight = [flat[:, i] * along[:, i] <= half[i] for i in range(2)]
-    middle = along @ half
-    corner = middle + np.sqrt(np.maximum(middle**2 - half @ half + radius**2, 0.0))
-    return np.where(straight[0], flat[:, 0], np.where(straight[1], flat[:, 1], corner))
-
-
-def is_sphere(cage: BallCage) -> bool:
-    """Are the pockets spherical?"""
-    return cage.pocket_shape == "spherical"
-
-
-def level_radius(
-    cage: BallCage, radius: float, height: np.ndarray, pitch_radius: float
-) -> np.ndarray:
-    """Radius [m] of a pocket's circle at heights [m] along its axis from the cage's axis."""
-    if not is_sphere(cage):
-        return np.full(np.shape(height), radius)
-    return np.sqrt(np.maximum(radius**2 - (height - pitch_radius) ** 2, 0.0))
-
-
-def web_thickness(cage: BallCage, shapes: PocketShapes, *, pitch_diameter: float) -> np.ndarray:
-    """Least thickness (Z,) [m] of each web along the circumference, at any radius; < 0: none."""
-    pitch_radius = 0.5 * pitch_diameter
-    radii = np.linspace(0.5 * cage.bore, 0.5 * cage.outside_diameter, 21)[:, None]
-    x = np.linspace(-0.5, 0.5, 2001) * cage.width
-    ahead, behind = [], []
-    for (shift, arc), hole, slot in zip(shapes.centre, shapes.radius, shapes.slot):
-        circle = level_radius(cage, hole, radii, pitch_radius)
-        inside = circle**2 - np.maximum(np.abs(x - shift) - slot[0], 0.0) ** 2
-        half = np.where(inside > 0.0, slot[1] + np.sqrt(np.maximum(inside, 0.0)), 0.0)
-        reach = np.arcsin(np.minimum(half / radii, 1.0))
-        ahead.append(arc / pitch_radius + reach)
-        behind.append(arc / pitch_radius - reach)
-    gap = 2.0 * pi / len(ahead) + np.array(behind) - np.roll(ahead, 1, axis=0)
-    return (radii * gap).min(axis=(1, 2))
 
 
 def check_pockets(

@@ -16,8 +16,9 @@ from typing import Any, ClassVar
 import numpy as np
 import scipy.sparse as sp
 
-from flexcage.cages.machined.cage import BallCage
-from flexcage.cages.machined.defects import BallCageDefect, PocketShapes, pocket_shapes
+from flexcage.cages.round_pocket.cage import BallCage
+from flexcage.cages.round_pocket.defects import BallCageDefect, pocket_shapes
+from flexcage.cages.round_pocket.shapes import PocketShapes
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import FEModel
 from flexcage.fem.symmetry import find_symmetry

@@ -1,0 +1,1 @@
+"""Round pockets, which machined, crown and ribbon cages share."""

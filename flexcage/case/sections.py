@@ -1,0 +1,124 @@
+"""Sections of a case, unchecked: what checks, words and stages read.
+
+``Case`` and ``StaticCase`` are these with their checks, texts and hashes.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from flexcage.contacts.spec import Contacts, LandSpec, Lubricant
+from flexcage.core.spec import option
+from flexcage.geometry.bearing import Bearing
+from flexcage.geometry.cage import Cage
+from flexcage.geometry.defect import CageDefect, defect_spec
+from flexcage.geometry.other_kinds import SURROUNDINGS
+from flexcage.geometry.ring import InnerRing, OuterRing
+from flexcage.mesh.options import MeshOptions
+from flexcage.modes.spec import ModesSpec
+from flexcage.results.options import OutputOptions
+from flexcage.solve.options import SolverOptions
+from flexcage.system.spec import Constraint, Drive, Limits, Load, Mount, StartOptions
+from flexcage.system.statics.options import StaticOptions
+
+CAGE_MODELS = ("flexible", "rigid")
+
+
+@dataclass(frozen=True, kw_only=True)
+class StaticSections:
+    """Bearing, contacts, load, speed and options, of which a static solution is made."""
+
+    name: str = option("case", doc="name, for titles and folders")
+    description: str = option("", doc="what this case is for")
+    preset: str = option("", doc="preset that the case started from")
+    bearing: Bearing = option(doc="the bearing")
+    contacts: Contacts = option(Contacts(), doc="contact laws, place by place")
+    lubricant: Lubricant = option(Lubricant(), doc="the lubricant")
+    drive: Drive = option(Drive(speed=0.0), doc="what turns the inner ring")
+    load: Load = option(Load(), doc="what loads the inner ring")
+    inner_ring: InnerRing = option(InnerRing(), doc="how the inner ring bends, if it does")
+    outer_ring: OuterRing = option(OuterRing(), doc="how the outer ring bends, if it does")
+    mount: Mount = option(Mount(), doc="what holds the outer ring")
+    static: StaticOptions = option(StaticOptions(), doc="how a static solution is meant")
+    given: tuple[str, ...] | None = dataclasses.field(
+        default=None, compare=False,
+        metadata={"hidden": True, "doc": "paths of values that the user gave, not of defaults"},
+    )  # fmt: skip
+
+    elsewhere: ClassVar[Mapping[str, str]] = SURROUNDINGS
+    _in_motion = False  # does it read all of [mount], or the housing's body alone?
+
+    @property
+    def rings_bend(self) -> bool:
+        """Does a ring bend?"""
+        return self.inner_ring.bends or self.outer_ring.bends
+
+    @property
+    def speed(self) -> float:
+        """Speed of the inner ring [rad/s] at the start."""
+        return self.drive.at_start
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class CageSections:
+    """A cage: of which shape, how flexible, and in which bearing."""
+
+    bearing: Bearing = option(doc="the bearing")
+    cage: Cage = option(doc="the cage")
+    cage_model: str = option("flexible", doc="how the cage is modelled", choices=CAGE_MODELS)
+    defects: tuple[CageDefect, ...] = option((), doc="deformations of the cage, any number")
+    mesh: MeshOptions = option(MeshOptions(), doc="the cage's mesh")
+    modes: ModesSpec = option(ModesSpec(), doc="the cage's modes")
+    seed: int = option(0, doc="seed of everything random in a bearing: sizes, places", minimum=0)
+
+    @property
+    def cage_shape(self) -> dict[str, Any]:
+        """What ``cages.build.build_cage_mesh`` asks for, by name."""
+        return {
+            "cage": self.cage,
+            "pocket_count": self.bearing.element_count,
+            "pitch_diameter": self.bearing.pitch_diameter,
+            "defects": self.all_defects,
+            "options": self.mesh,
+        }
+
+    @property
+    def all_defects(self) -> tuple[CageDefect, ...]:
+        """Defects that the case names, and those that make its pockets' spacing uneven."""
+        uneven = defect_spec(self.cage).by_chance(self.cage, self.bearing.element_count, self.seed)
+        return (*self.defects, *uneven)
+
+    @property
+    def riveted(self) -> bool:
+        """Whether its cage is flexible and held together by rivets, whose loads are then known."""
+        return self.cage_model == "flexible" and self.cage.riveted
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class CaseSections(CageSections, StaticSections):
+    """Both, and how the bearing is driven, held and solved."""
+
+    drive: Drive = option(Drive(), doc="what turns the inner ring")
+    constraints: tuple[Constraint, ...] = option(
+        (), doc="what holds or moves rings and cage besides, any number"
+    )
+    start: StartOptions = option(StartOptions(), doc="how the start departs from equilibrium")
+    solver: SolverOptions = option(SolverOptions(), doc="the integrator")
+    output: OutputOptions = option(OutputOptions(), doc="what is kept of a run")
+    limits: Limits = option(Limits(), doc="limits beyond which a start is refused")
+
+    _in_motion = True
+
+    @property
+    def land(self) -> LandSpec:
+        """The cage's land, with the clearance and width that the dimensions leave where the case
+        gives none."""
+        return self.contacts.land.on(self.bearing.land(self.cage))
+
+    @property
+    def held_in_words(self) -> str:
+        """How the inner ring is held in a run, in words."""
+        return self.load.held_in_words(axially=self.load.frees_axially(self.bearing))
