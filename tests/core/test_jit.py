@@ -11,12 +11,13 @@ import numpy as np
 import pytest
 
 from flexcage import compiling
-from flexcage.core.jit import allocating_kernel, boxed, fields, kernel_sources
+from flexcage.core.jit import allocating_kernel, boxed, fields
+from flexcage.core.sources import kernel_sources
 
 PLAIN = bool(numba.config.DISABLE_JIT)
 
 
-def test_the_cache_of_kernels_knows_every_file_that_feeds_them():
+def test_the_fingerprint_of_kernels_knows_every_file_that_feeds_them():
     """Named constants and plain functions reach kernels from files that compile nothing."""
     known = {f"{path.parent.name}/{path.name}" for path in kernel_sources()}
     assert {"contacts/evaluation.py", "system/data.py", "system/layout.py"} <= known
