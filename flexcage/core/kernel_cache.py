@@ -25,7 +25,7 @@ from numba.core.serialize import dumps
 from flexcage.core import kernel_files
 from flexcage.core.kernel_files import SUFFIX, KernelFolder
 from flexcage.core.kernel_keys import kernel_key
-from flexcage.core.type_texts import UnknownContent, class_name, parts_of
+from flexcage.core.type_texts import class_name, parts_of
 from flexcage.core.users_files import contents_key
 
 log = logging.getLogger(__name__)
@@ -48,7 +48,7 @@ class KernelCache(NullCache):
         self._stem = f"{module}.{function.__qualname__}".replace("<", "").replace(">", "")
         file = Path(function.__code__.co_filename).resolve()
         self._users_own = not file.is_relative_to(_PACKAGE)
-        self._keys: dict[str, str] = {}  # when there was nothing to read
+        self._missing: set[str] = set()  # keys of what was looked for and not found
         self._told = False
 
     @property
@@ -61,7 +61,7 @@ class KernelCache(NullCache):
         more = (repr(codegen.magic_tuple()), contents_key() if self._users_own else "")
         try:
             return kernel_key(self._kernel, signature, *more)
-        except UnknownContent as unknown:
+        except Exception as unknown:  # a user's objects may do anything when they are looked at
             log.log(
                 logging.DEBUG if self._told else logging.WARNING,
                 "the kernel '%s' is compiled in every process: it takes in %s, of which flexcage "
@@ -93,14 +93,14 @@ class KernelCache(NullCache):
             kernel_files.mark_as_used(path)
             self._note(sig)
             return found
-        self._keys[str(sig)] = key
+        self._missing.add(key)
         return None
 
     def save_overload(self, sig: Any, data: Any) -> None:
         """Keep a kernel where that is possible, if what it is made of has not changed since it was
         looked for."""
-        before, key = self._keys.pop(str(sig), None), self._key(sig, data.codegen)
-        if key is None or key != before or data.lifted or data.library.has_dynamic_globals:
+        key = self._key(sig, data.codegen)
+        if key not in self._missing or data.lifted or data.library.has_dynamic_globals:
             return
         content: bytes = dumps(data._reduce())
         while (place := self._folder.place) is not None:

@@ -14,7 +14,6 @@ What is of a kind that is not known here makes a kernel that is not kept at all.
 from __future__ import annotations
 
 import builtins
-import dis
 import enum
 import hashlib
 import platform
@@ -22,7 +21,7 @@ import sys
 from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 from pathlib import Path
-from types import CodeType, EllipsisType, FunctionType, ModuleType, NoneType
+from types import EllipsisType, FunctionType, ModuleType, NoneType
 from typing import Any
 
 import numba
@@ -32,32 +31,19 @@ from numba import types
 from numba.core.dispatcher import Dispatcher
 from numba.core.extending import _Intrinsic
 
+from flexcage.core.code_texts import exact, facts_of
 from flexcage.core.type_texts import UnknownContent, class_name, described
 
 _CORE = Path(__file__).resolve().parent
+_FILES = "jit", "kernel_cache", "kernel_keys", "kernel_values", "numba_changes", "type_texts"
 #: Files whose code makes other code: what is edited there may change every kernel.
-COMPILER = tuple(
-    _CORE / f"{name}.py"
-    for name in (
-        "jit",
-        "kernel_cache",
-        "kernel_keys",
-        "kernel_values",
-        "numba_changes",
-        "type_texts",
-    )
-)
+COMPILER = tuple(_CORE / f"{name}.py" for name in _FILES)
 _VERSIONED = ("numba", "numpy", "llvmlite")
 _PYTHON = Path(enum.__file__).resolve().parent
 _SETTINGS = (
-    "CPU_NAME",
-    "CPU_FEATURES",
-    "OPT",
-    "LOOP_VECTORIZE",
-    "SLP_VECTORIZE",
-    "BOUNDSCHECK",
+    "CPU_NAME", "CPU_FEATURES", "OPT", "LOOP_VECTORIZE", "SLP_VECTORIZE", "BOUNDSCHECK",
     "DEBUGINFO_DEFAULT",
-)
+)  # fmt: skip
 _PLAIN = (bool, int, float, complex, str, bytes, NoneType, EllipsisType)
 
 
@@ -121,7 +107,7 @@ class _Content:
     def add(self, value: Any) -> None:
         """Take in a value."""
         if isinstance(value, _PLAIN) and type(value) in _PLAIN:
-            self.write(_exact(value))
+            self.write(exact(value))
             return
         for kind, take in _VALUES:
             if isinstance(value, kind):
@@ -147,17 +133,17 @@ class _Content:
             if isinstance(value, kind):
                 take(self, value)
                 return
-        raise UnknownContent(f"{value!r} of the type {type(value).__name__}")
+        raise UnknownContent(f"{value!r:.80} of the type {type(value).__name__}")
 
     def _function(self, function: FunctionType) -> None:
-        facts = _facts(function.__code__, function.__doc__)
+        facts = facts_of(function.__code__, function.__doc__)
         self.write("function", facts.text)
         self.add(function.__defaults__)
         for name, value in sorted((function.__kwdefaults__ or {}).items()):
             self.write(name)
             self.add(value)
-        for cell in function.__closure__ or ():
-            self._named(cell.cell_contents, facts.attributes)
+        for value in _closed_over(function):
+            self._named(value, facts.attributes)
         for name in facts.globals:
             self.write(name)
             if name in function.__globals__:
@@ -191,8 +177,8 @@ class _Content:
         if Path(made.__code__.co_filename).resolve() not in COMPILER:
             self.add(made)
             return
-        for cell in made.__closure__ or ():
-            self.add(cell.cell_contents)
+        for value in _closed_over(made):
+            self.add(value)
 
     def _type(self, kind: types.Type) -> None:
         self.write("type", described(kind))
@@ -278,73 +264,20 @@ def _outside(module: str) -> bool:
     return file is None or Path(file).resolve().is_relative_to(_PYTHON)
 
 
+def _closed_over(function: FunctionType) -> list[Any]:
+    """Values of a function's closure; "empty" for a name that has none yet."""
+    found: list[Any] = []
+    for cell in function.__closure__ or ():
+        try:
+            found.append(cell.cell_contents)
+        except ValueError:
+            found.append("empty")
+    return found
+
+
 def _layout(dtype: np.dtype) -> str:
     return f"{dtype.str} {dtype.fields} {dtype.isalignedstruct}"
 
 
 def _sorted(option: object) -> object:
     return sorted(option) if isinstance(option, set | frozenset) else option
-
-
-def _exact(value: object) -> str:
-    """A constant to its last bit."""
-    if isinstance(value, float):
-        text = value.hex()
-    elif isinstance(value, complex):
-        text = f"{value.real.hex()} {value.imag.hex()}"
-    elif isinstance(value, tuple):
-        text = ", ".join(map(_exact, value))
-    elif isinstance(value, frozenset):
-        text = ", ".join(sorted(map(_exact, value)))
-    else:
-        text = repr(value)
-    return f"{type(value).__name__}({text})"
-
-
-class _Facts:
-    """What a function's code says by itself, and what it reads of its module."""
-
-    def __init__(self, code: CodeType, doc: str | None) -> None:
-        texts: list[str] = []
-        reads: dict[str, set[str]] = {
-            "GLOBAL": set(),
-            "NAME": set(),
-            "ATTR": set(),
-            "METHOD": set(),
-        }
-        for part in _with_inner(code):
-            steps = [s for s in dis.get_instructions(part) if s.opname.startswith("LOAD_")]
-            first_read = any(s.opname == "LOAD_CONST" and s.arg == 0 for s in steps)
-            texts.append(_code_text(part, None if first_read or part is not code else doc))
-            for step in steps:
-                reads.get(step.opname[5:], set()).add(step.argval)
-        self.text = "\n".join(texts)
-        self.globals = sorted(reads["GLOBAL"] | reads["NAME"])
-        self.attributes = sorted(reads["ATTR"] | reads["METHOD"])
-
-
-@cache
-def _facts(code: CodeType, doc: str | None) -> _Facts:
-    return _Facts(code, doc)
-
-
-def _with_inner(code: CodeType) -> list[CodeType]:
-    """A function's code and that of functions inside it."""
-    inner = (c for c in code.co_consts if isinstance(c, CodeType))
-    return [code, *(part for c in inner for part in _with_inner(c))]
-
-
-def _code_text(code: CodeType, doc: str | None) -> str:
-    """Bytecode, constants but for the docstring, names, arguments."""
-    constants = [c for c in code.co_consts if not isinstance(c, CodeType)]
-    if doc is not None and constants[:1] == [doc]:
-        constants[0] = None
-    return repr((
-        code.co_code, [*map(_exact, constants)], code.co_names, code.co_varnames,
-        code.co_freevars, code.co_cellvars, code.co_argcount, code.co_posonlyargcount,
-        code.co_kwonlyargcount, code.co_flags & ~_HAS_DOCSTRING,
-        getattr(code, "co_exceptiontable", b""),
-    ))  # fmt: skip
-
-
-_HAS_DOCSTRING = 0x4000000  # from Python 3.13 on

@@ -27,7 +27,7 @@ def described(kind: Any) -> str:
         return f"({', '.join(map(described, kind))})"
     if isinstance(kind, types.FunctionType):
         return f"{type(kind).__name__}[{described(kind.signature)}]"
-    if isinstance(kind, types.Callable):
+    if isinstance(kind, types.Callable | types.ClassInstanceType):
         raise UnknownContent(f"the argument {kind}")
     if not isinstance(kind, types.Type):
         return repr(kind)
@@ -42,7 +42,9 @@ def parts_of(kind: Any) -> tuple[types.Type, ...]:
         return tuple(kind)
     if isinstance(kind, types.FunctionType):
         return parts_of(kind.signature)
-    found = (getattr(kind, name, None) for name in ("held", "dtype", "type", "key_type"))
+    found = (
+        getattr(kind, name, None) for name in ("held", "dtype", "type", "key_type", "value_type")
+    )
     return tuple(part for part in found if isinstance(part, types.Type) and part is not kind)
 
 
