@@ -55,6 +55,15 @@ def test_a_kernel_reads_and_writes_what_a_box_holds():
     assert kernel(boxed(values._replace(count=2**40)))[:3] == (2**40, 0.25, 25.0)
 
 
+def test_groups_of_one_name_are_told_apart_by_their_fields():
+    a_first, b_first = (
+        NamedTuple("Same", [(name, float) for name in names]) for names in ("ab", "ba")
+    )
+    kernel = allocating_kernel(lambda box: fields(box).a)
+    assert kernel(boxed(a_first(a=1.0, b=2.0))) == 1.0
+    assert kernel(boxed(b_first(a=1.0, b=2.0))) == 1.0
+
+
 def test_numpy_numbers_are_boxed_as_themselves():
     values = group()._replace(count=np.int64(5), ratio=np.float64(-1.5))
     assert allocating_kernel(read)(boxed(values))[:2] == (5, -1.5)

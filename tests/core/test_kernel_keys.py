@@ -204,6 +204,41 @@ def test_an_edit_compiles_what_was_made_of_it(tmp_path, run, edit):
     assert run() == (AS_IT_IS, set())  # both versions are kept
 
 
+MARK = f"""{RUN}
+from flexcage.core.kernel_marks import mark_compiled
+kernels.whole.disable_compile(False)
+mark_compiled("mine")
+"""
+ASK = """
+from flexcage.core.kernel_marks import kernels_cached
+import mine.kernels, mine.laws
+print(kernels_cached("mine"), kernels_cached("another's"))
+"""
+
+
+def test_a_mark_says_beforehand_whether_there_is_something_to_compile(warm, built, tmp_path):
+    shutil.copytree(built, tmp_path, dirs_exist_ok=True)
+
+    def said(code: str) -> str:
+        return said_and_told(warm, code, tmp_path, tmp_path / "cache", tmp_path)[0]
+
+    assert said(ASK) == "False False\n"
+    said(MARK)
+    assert said(ASK) == "True False\n"
+    for edit, cached in (
+        ("another file", True), ("a docstring", True), ("plain Python beside kernels", True),
+        ("a callee three files deep", False), ("a law, passed as a value", False),
+        ("in a box", False), ("order of fields", False),
+    ):  # fmt: skip
+        name, before, after, *_ = EDITS[edit]
+        file = tmp_path / "mine" / name
+        text = file.read_text()
+        file.write_text(text.replace(before, after))
+        assert said(ASK) == f"{cached} False\n", edit
+        file.write_text(text)
+    assert said(ASK.replace("import mine.kernels, mine.laws", "")) == "False False\n"
+
+
 def test_what_nobody_can_judge_is_compiled_in_every_process(warm, tmp_path):
     """A C function's address says nothing of what the function does."""
     (tmp_path / "from_c.py").write_text(
