@@ -53,22 +53,20 @@ def kernel_key(kernel: Dispatcher, signature: Any, *more: str) -> str:
 
     Raises UnknownContent.
     """
-    return _digest(compiler_key(), described(signature), *more, of=kernel)
+    content = _Content()
+    content.write(compiler_key(), described(signature), *more)
+    content.add(kernel)
+    return content.hexdigest()
 
 
 def content_key(value: Any) -> str:
-    """32 digits that change with the content of a function, a constant or a class.
+    """32 digits that change with the content of a function, a constant or a class, not with how
+    functions are compiled: one that will be, as an integrator's, is the same before.
 
     Raises UnknownContent.
     """
-    return _digest(of=value)
-
-
-def _digest(*texts: str, of: Any) -> str:
-    content = _Content()
-    for text in texts:
-        content.write(text)
-    content.add(of)
+    content = _Content(of_sources=True)
+    content.add(value)
     return content.hexdigest()
 
 
@@ -89,9 +87,11 @@ def compiler_key() -> str:
 
 
 class _Content:
-    """A digest of values and of all that they refer to, each where it is met first."""
+    """A digest of values and of all that they refer to, each where it is met first; ``of_sources``:
+    compiled functions are as they are written."""
 
-    def __init__(self) -> None:
+    def __init__(self, *, of_sources: bool = False) -> None:
+        self._of_sources = of_sources
         self._digest = hashlib.sha256()
         self._met: dict[int, tuple[int, Any]] = {}  # its number; kept alive, as ids are used again
 
@@ -106,6 +106,8 @@ class _Content:
 
     def add(self, value: Any) -> None:
         """Take in a value."""
+        if self._of_sources and isinstance(value, Dispatcher):
+            value = value.py_func
         if isinstance(value, _PLAIN) and type(value) in _PLAIN:
             self.write(exact(value))
             return

@@ -106,6 +106,12 @@ def alone(x):
 
 def plain():
     return 1
+
+def helper(x):
+    return x + 1.0
+
+def integrate(x):
+    return helper(x)
 ''',
     "unread.py": "VALUE = 1\n",
 }  # fmt: skip
@@ -155,6 +161,7 @@ EDITS = {
     "plain Python beside kernels": ("kernels.py", "return 1", "return 2", "", 0),
     "a docstring": ("kernels.py", '"""Text."""', '"""Another\n    text."""', "", 0),
     "no docstring": ("deep.py", '    """Text."""\n', "", "", 0),
+    "a helper that is compiled later": ("kernels.py", "x + 1.0", "1.0 + x", "", 0),
     "a comment": ("kernels.py", "\n@kernel\ndef whole", "# text\n\n@kernel\ndef whole", "", 0),
     "another file": ("unread.py", "VALUE = 1", "VALUE = 2", "", 0),
 }  # fmt: skip
@@ -206,7 +213,9 @@ def test_an_edit_compiles_what_was_made_of_it(tmp_path, run, edit):
 
 MARK = f"""{RUN}
 from flexcage.core.kernel_marks import mark_compiled
-kernels.whole.disable_compile(False)
+from flexcage.core.jit import allocating_kernel, compiled
+kernels.helper = allocating_kernel(kernels.helper)  # as a bearing does with an integrator's
+assert compiled(kernels.integrate, laws.SIGNATURE)(1.0) == 2.0
 mark_compiled("mine")
 """
 ASK = """
@@ -229,6 +238,7 @@ def test_a_mark_says_beforehand_whether_there_is_something_to_compile(warm, buil
         ("another file", True), ("a docstring", True), ("plain Python beside kernels", True),
         ("a callee three files deep", False), ("a law, passed as a value", False),
         ("in a box", False), ("order of fields", False),
+        ("a helper that is compiled later", False),
     ):  # fmt: skip
         name, before, after, *_ = EDITS[edit]
         file = tmp_path / "mine" / name
