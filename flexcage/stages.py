@@ -33,7 +33,7 @@ from flexcage.results.options import OutputOptions
 from flexcage.system.bending import rigid_rings
 from flexcage.system.bodies import heaviest_load
 from flexcage.system.constraints import names_of
-from flexcage.system.layout import Layout
+from flexcage.system.layout import Layout, bodies_of_bearing
 from flexcage.system.left_behind import left_by_lands
 from flexcage.system.problem import Bearing
 from flexcage.system.ring_walls import lands_follow
@@ -247,7 +247,9 @@ def _assembled(
         swings = no_swings(count) if rings is None else rings.swings
         motion, model = bending.motion, lands_follow(bending.model(*model, data, swings))
     swinging = 0 if rings is None else len(rings.at_start)
-    layout = Layout(count, body.modes, names_of(specs.constraints), bends, swinging)
+    layout = Layout(
+        count, bodies_of_bearing(body.modes), names_of(specs.constraints), bends, swinging
+    )  # fmt: skip
     return Bearing(
         motion, specs.bearing, model, specs.contacts, layout, constraints=specs.constraints,
         block=output.block, stride=output.vibration_ratio, interval=1.0 / output.rate, rings=rings,

@@ -40,8 +40,6 @@ from flexcage.system.data import (
     EVENT_ELEMENT,
     EVENT_PLACE,
     EVENT_TIME,
-    FIXED,
-    FREE_CENTRE,
     MASS,
     POWERS,
 )
@@ -320,10 +318,10 @@ class Integration:
 
     def _fine(self, yd: np.ndarray, n: int) -> dict[str, np.ndarray]:
         """Outer ring's acceleration; of a fixed ring, what its contact forces would give it."""
-        bodies = self.bearing.data.model.bodies
-        raw = self.bearing.data.samples.force[:n] / bodies.outer[MASS]
-        if bodies.support != FIXED:
-            raw = self.bearing.layout.u(yd)["outer"]
+        ring = self.bearing.data.model.outer_ring
+        raw = self.bearing.data.samples.force[:n] / ring.inertia[MASS]
+        if ring.free.any():
+            raw = np.ascontiguousarray(self.bearing.layout.u(yd)["outer"][:, 1:3])
         moved = carried(self.bearing, yd)
         if moved is not None:
             raw = np.ascontiguousarray(moved[1][:, 1:])
@@ -395,7 +393,7 @@ class Integration:
 
 def cheaper(bearing: Bearing, step: float, solver: SolverOptions) -> str:
     """The integrator that "auto" takes where explicit steps up to ``step`` [s] are stable."""
-    if bearing.data.model.bodies.free[FREE_CENTRE] == 0:  # a held centre has no implicit equation
+    if bearing.data.model.inner_ring.stands:  # a held centre has no implicit equation
         return "explicit"
     return "bdf" if step < bearing.motion.implicit_share * solver.stable_step else "explicit"
 

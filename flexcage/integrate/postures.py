@@ -5,11 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 
-def in_plane(yz: np.ndarray) -> np.ndarray:
-    """Vectors (n, 3) in space of components (n, 2) in the plane of rotation."""
-    return np.concatenate([np.zeros((len(yz), 1)), yz], axis=1)
-
-
 def orientation(azimuth: np.ndarray, angles: np.ndarray) -> np.ndarray:
     """Unit quaternions (..., 4), scalar first, of bodies at ``azimuth`` (...,) about x, turned by
     ``angles`` (..., 3): skew about the radial, tilt about the tangential axis, and spin [rad]."""

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from flexcage.integrate.postures import in_plane, orientation, to_body
+from flexcage.integrate.postures import orientation, to_body
 from flexcage.integrate.recording import Recording
 from flexcage.integrate.rings import carried, ring_records
 from flexcage.results.options import OutputOptions
@@ -114,8 +114,8 @@ def _common(bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> dict[str, np.nda
         "inner_angle": q["inner"][:, 5],
         "inner_speed": u["inner"][:, 3],
         "inner_quaternion": orientation(np.zeros(n), q["inner"][:, 3:]),
-        "outer_position": in_plane(q["outer"]),
-        "outer_velocity": in_plane(u["outer"]),
+        "outer_position": q["outer"][:, :3],
+        "outer_velocity": u["outer"][:, :3],
         "cage_position": q["cage"],
         "cage_velocity": u["cage"],
         "cage_quaternion": quaternion,

@@ -30,9 +30,10 @@ import numpy as np
 
 from flexcage.contacts.state import AXIS, CENTRE
 from flexcage.core.jit import VECTORISED, fields, part, zero
-from flexcage.core.vectors import cross, minus, turned, turned_back, xyz
+from flexcage.core.vectors import TURN, cross, minus, turned, turned_back, xyz
 from flexcage.system.data import INNER_RACE, MODAL_DAMPING, OUTER_RACE, STRAIN
-from flexcage.system.layout import INNER_TURN, OUTER, PER_ELEMENT, Layout, of_element, places
+from flexcage.system.layout import PER_ELEMENT, Layout, of_element
+from flexcage.system.ring import inner_of, outer_of
 from flexcage.system.scales import ERROR_RATE
 
 POINTS = 4096  # of the tables, a power of two; straight lines between them
@@ -74,13 +75,6 @@ def rigid_rings(elements: int) -> RingsData:
         z((2, elements, 2)), z((2, elements)), z((2, elements, 2)), z(2, np.int64),
         z((2, pairs, 2), np.int64), z((2, pairs, 6)),
     )  # fmt: skip
-
-
-@part
-def ring_forces_at(d):
-    """Where in y the forces that rings bear begin."""
-    Z, nm = fields(d.bodies).radius.shape[0], fields(d.pocket).phi_max.shape[0]
-    return places(Z, nm).held + 2 * fields(d.tangent).held.shape[0]
 
 
 @part
@@ -209,20 +203,24 @@ def displace(at, ports, way):
 
 
 @part
-def push_by_slopes(i, q, rest_q, d):
+def push_by_slopes(i, q, y, d):
     """Add the forces on element i of the slopes that others give the races, across its radius, and
     their reactions on the rings."""
-    F, work, rings = fields(d.pose).F, fields(d.scratch), fields(d.rings)
-    qi = q[of_element(i)]
-    inner, outer = rings.moment[INNER_RACE, i] / qi[1], rings.moment[OUTER_RACE, i] / qi[1]
-    work.wrenches[i, 2] += inner + outer
-    for c in range(2):
-        work.border[OUTER + c] -= F[2, 1 + c] * outer
-        work.border[1 + c] -= F[2, 1 + c] * inner
-    P = minus((qi[0], qi[1], 0.0), turned(F, xyz(rest_q)))
-    moment = turned_back(F, cross(P, (0.0, 0.0, -inner)))
+    rings, qi = fields(d.rings), q[of_element(i)]
+    _push_along(qi, inner_of(y, d), rings.moment[INNER_RACE, i] / qi[1], i, d)
+    _push_along(qi, outer_of(y, d), rings.moment[OUTER_RACE, i] / qi[1], i, d)
+
+
+@part
+def _push_along(qi, ring, force, i, d):
+    """A force on element i along its orbit, and its reaction on a ring."""
+    F, work = fields(d.pose).F, fields(d.scratch)
+    work.wrenches[i, 2] += force
+    P = minus((qi[0], qi[1], 0.0), turned(F, xyz(ring.q)))
+    moment = turned_back(F, cross(P, (0.0, 0.0, -force)))
     for c in range(3):
-        work.border[INNER_TURN + c] += moment[c]
+        work.border[ring.b + c] -= F[2, c] * force
+        work.border[ring.b + TURN + c] += moment[c]
 
 
 @part

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from flexcage.core.jit import outlined, part
 from flexcage.core.vectors import RIGID
-from flexcage.system.layout import CAGE, MODES, OUTER
 
 
 @part
@@ -40,40 +39,20 @@ def scatter(pair, S, i, start, tan, T6):
 
 
 @outlined
-def scatter_outer(pair, F, i, tan):
-    """The same for the outer ring, which only moves in y and z (columns ``OUTER``)."""
-    for m in range(2):
-        M, (rr, rb, br, bb) = pair.K if m == 0 else pair.C, _of(tan, m)
-        for a in range(6):
-            for b in range(6):
-                rr[i, a, b] += M[a, b]
-            for b in range(2):
-                x = y = 0.0
-                for c in range(1, 3):
-                    x += M[a, c] * F[c, 1 + b]
-                    y += F[c, 1 + b] * M[c, a]
-                rb[i, a, OUTER + b] -= x
-                br[i, OUTER + b, a] -= y
-        for a in range(2):
-            for b in range(2):
-                for c in range(1, 3):
-                    for e in range(1, 3):
-                        bb[OUTER + a, OUTER + b] += F[c, 1 + a] * M[c, e] * F[e, 1 + b]
-
-
-@outlined
-def scatter_modes(i, pw, S, tan, n_m):
-    """Add what couples pocket i's roller and the cage's rigid motion to the cage's n_m modes."""
+def scatter_modes(i, pw, S, start, tan, n_m):
+    """Add what couples pocket i's roller and the cage's rigid motion to the cage's n_m modes; the
+    cage's columns begin at ``start``."""
+    modes = start + RIGID
     for m in range(2):
         M, (_rr, rb, br, bb) = pw.K if m == 0 else pw.C, _of(tan, m)
         for c in range(6):
             for o in range(n_m):
-                rb[i, c, MODES + o] += M[c, RIGID + o]
-                br[i, MODES + o, c] += M[RIGID + o, c]
+                rb[i, c, modes + o] += M[c, RIGID + o]
+                br[i, modes + o, c] += M[RIGID + o, c]
             for e in range(6):
                 for o in range(n_m):
-                    bb[CAGE + e, MODES + o] -= S[c, e] * M[c, RIGID + o]
-                    bb[MODES + o, CAGE + e] -= M[RIGID + o, c] * S[c, e]
+                    bb[start + e, modes + o] -= S[c, e] * M[c, RIGID + o]
+                    bb[modes + o, start + e] -= M[RIGID + o, c] * S[c, e]
         for o in range(n_m):
             for l in range(n_m):
-                bb[MODES + o, MODES + l] += M[RIGID + o, RIGID + l]
+                bb[modes + o, modes + l] += M[RIGID + o, RIGID + l]

@@ -14,12 +14,11 @@ from flexcage.contacts.spec import LandSpec, Lubricant
 from flexcage.geometry.bearing import Bearing, RingLand
 from flexcage.geometry.materials import Material
 from flexcage.system import time_functions
-from flexcage.system.data import BUSHING, FIXED, LOOSE, Bodies
+from flexcage.system.data import Bodies, RingBody
+from flexcage.system.layout import HELD_VELOCITIES
 from flexcage.system.spec import WAVES, Drive, Load, Mount, Wave
 
 CAGE_SKIN_FRICTION = 0.01  # assumption: turbulent skin friction of the cage's outer surface
-
-_SUPPORTS = {"fixed": FIXED, "bushing": BUSHING, "contact": LOOSE}  # by ``mount.kind``
 
 
 def unbalanced(body: FlexibleBody, cage) -> FlexibleBody:
@@ -174,14 +173,13 @@ def land_on_stop(
 
 
 def bodies_of(
-    bearing, cage, lubricant: Lubricant, drive: Drive, load: Load, mount: Mount,
-    *, element: np.ndarray, radius: np.ndarray, area: float, free: tuple[bool, bool, bool],
+    bearing, cage, lubricant: Lubricant, drive: Drive, load: Load,
+    *, element: np.ndarray, radius: np.ndarray, area: float,
 ) -> Bodies:  # fmt: skip
-    """Masses, drive and loads.
+    """Elements, drive, loads and drag.
 
     ``element`` (3,): mass [kg] and inertias [kg m^2] of a rolling element, ``radius`` (Z,) [m]
-    theirs, ``area`` [m^2] that one meets the oil with; ``free``: is the inner ring free axially, in
-    skew and in tilt?
+    theirs, ``area`` [m^2] that one meets the oil with.
     """
     speed = _speed_table(drive)
     steps = 0.5 * np.diff(speed[0]) * (speed[1, 1:] + speed[1, :-1])
@@ -192,16 +190,6 @@ def bodies_of(
         element=element,
         radius=radius,
         pitch=0.5 * bearing.pitch_diameter,
-        ring=np.array([bearing.inner_ring_mass + load.shaft_mass, *bearing.inner_ring_inertia]),
-        outer=np.array(
-            [
-                bearing.outer_ring_mass + mount.mass,
-                mount.stiffness,
-                mount.damping,
-                mount.clearance,
-            ]
-        ),
-        support=_SUPPORTS[mount.kind],
         gravity=load.gravity * np.array([0.0, np.cos(azimuth), np.sin(azimuth)]),
         drag=np.array(
             [
@@ -224,7 +212,38 @@ def bodies_of(
         ),
         load_direction=np.array([np.cos(load.direction), np.sin(load.direction)]),
         moments=np.array([load.moment_y, load.moment_z]),
-        free=np.array([*free, load.centre == "free"], np.int64),
-        spring=np.array([load.stiffness, load.damping]).T * np.array(free, float)[:, None],
-        misalignment=load.misalignment,
+    )  # fmt: skip
+
+
+def inner_ring_of(bearing, drive: Drive, load: Load, *, free_axially: bool) -> RingBody:
+    """The inner ring on its shaft."""
+    tilts = load.tilt == "free"
+    free = np.array([free_axially, True, True, drive.kind == "shaft", tilts, tilts])
+    springs = np.zeros((6, 2))
+    springs[HELD_VELOCITIES[:3], :] = np.array([load.stiffness, load.damping]).T
+    springs *= free[:, None]
+    return RingBody(
+        inertia=np.array([bearing.inner_ring_mass + load.shaft_mass, *bearing.inner_ring_inertia]),
+        free=free.astype(np.int64),
+        stands=int(load.centre != "free"),
+        stiffness=np.ascontiguousarray(springs[:, 0]),
+        damping=np.ascontiguousarray(springs[:, 1]),
+        rest=np.array([0.0, 0.0, 0.0, 0.0, 0.0, load.misalignment]),
+        loose=0,
+        clearance=0.0,
+    )
+
+
+def outer_ring_of(bearing, mount: Mount) -> RingBody:
+    """The outer ring on its mount."""
+    free = np.array([0, 1, 1, 0, 0, 0]) * (mount.kind != "fixed")
+    return RingBody(
+        inertia=np.array([bearing.outer_ring_mass + mount.mass, *bearing.outer_ring_inertia]),
+        free=free,
+        stands=0,
+        stiffness=mount.stiffness * free.astype(float),
+        damping=mount.damping * free.astype(float),
+        rest=np.zeros(6),
+        loose=int(mount.kind == "contact"),
+        clearance=mount.clearance,
     )

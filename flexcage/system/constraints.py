@@ -1,13 +1,14 @@
-"""Constraints beyond those of drive and load: on rings and cage, by any function.
+"""Constraints beyond those of drive and load: on any body, by any function.
 
 A kind of constraint is a function of the signature
 
-    rows(t, q, u, p, G, g, h)
+    rows(t, y, at, p, G, g, h)
 
 that says of m scalar constraints at time t [s] what they miss: in place, g (m,), and in velocity, h
-(m,), with G (m, 14) = dh/du. q (15,) and u (14,) are the coordinates and velocities of the rings
-and the cage, at the places that the constants of ``layout`` name; p is the kind's vector of
-parameters. Arrays to fill hold zeros; t may be a microsecond before the start. Of level "position",
+(m,), with G (m, n) = dh/du. y holds all coordinates and velocities, and ``at``
+(``layout.Places``) says where: those of the cage begin at y[at.cage_q] and y[at.cage_u], and its
+velocities have the columns of G from at.cage_b on; p is the kind's vector of parameters. Arrays to
+fill hold zeros; t may be a microsecond before the start. Of level "position",
 a holonomic g(q, t), h is dg/dt; a kind of level "velocity" is a h(q, u, t) and leaves g alone. Both
 enter the equations as index 2, stabilised where there is a place to keep: G^T lambda acts on the
 bodies, and lambda is the result ``multiplier``.
@@ -30,22 +31,11 @@ from flexcage.core.errors import InputError
 from flexcage.core.jit import LEAN, kernel, kernel_of, why_not_compiled
 from flexcage.core.kernel_values import KernelType
 from flexcage.core.registry import add, check_free
+from flexcage.core.vectors import TURN
 from flexcage.system import spec as specs
-from flexcage.system.data import FIXED, MASS
-from flexcage.system.layout import (
-    CAGE,
-    CAGE_TURN,
-    INNER,
-    INNER_TURN,
-    MODES,
-    Q_CAGE,
-    Q_INNER,
-    Q_MODES,
-    Q_QUATERNION,
-    REACTION_UNITS,
-    Layout,
-)  # fmt: skip
+from flexcage.system.data import AXIAL, MASS, TRANSVERSE
 from flexcage.system.layout import CONSTRAINTS as REACTIONS
+from flexcage.system.layout import QUATERNION, REACTION_UNITS, Layout, Places
 from flexcage.system.spec import Constraint
 
 N_PARAMETERS = 10
@@ -59,60 +49,62 @@ _BEYOND = 16  # rows more than a kind has labels for, in which it is caught writ
 
 _F8, _VECTOR = types.float64, types.Array(types.float64, 1, "C")
 _MATRIX = types.Array(types.float64, 2, "C")
-ROWS = types.void(_F8, _VECTOR, _VECTOR, _VECTOR, _MATRIX, _VECTOR, _VECTOR)
-ALL_ROWS = types.void(_F8, _VECTOR, _VECTOR, _MATRIX, _MATRIX, _VECTOR, _VECTOR)
+_PLACES = types.NamedUniTuple(types.int64, len(Places._fields), Places)
+ROWS = types.void(_F8, _VECTOR, _PLACES, _VECTOR, _MATRIX, _VECTOR, _VECTOR)
+ALL_ROWS = types.void(_F8, _VECTOR, _PLACES, _MATRIX, _MATRIX, _VECTOR, _VECTOR)
 ALL_ROWS_TYPE = KernelType(ALL_ROWS)
-_ARGUMENTS = "t, q, u, p, G, g, h"
+_ARGUMENTS = "t, y, at, p, G, g, h"
 
 
 @kernel(ROWS)
-def cage_speed(t, q, u, p, G, g, h):
+def cage_speed(t, y, at, p, G, g, h):
     """p: speed [rad/s], share of the inner ring's."""
-    h[0] = u[CAGE_TURN] - p[0] - p[1] * u[INNER_TURN]
-    G[0, CAGE_TURN], G[0, INNER_TURN] = 1.0, -p[1]
+    h[0] = y[at.cage_u + TURN] - p[0] - p[1] * y[at.inner_u + TURN]
+    G[0, at.cage_b + TURN], G[0, at.inner_b + TURN] = 1.0, -p[1]
 
 
 @kernel(ROWS)
-def cage_centre(t, q, u, p, G, g, h):
+def cage_centre(t, y, at, p, G, g, h):
     """p: y, z [m]."""
     for k in range(2):
-        g[k] = q[Q_CAGE + 1 + k] - p[k]
-        h[k] = u[CAGE + 1 + k]
-        G[k, CAGE + 1 + k] = 1.0
+        g[k] = y[at.cage_q + 1 + k] - p[k]
+        h[k] = y[at.cage_u + 1 + k]
+        G[k, at.cage_b + 1 + k] = 1.0
 
 
 @kernel(ROWS)
-def cage_tilt(t, q, u, p, G, g, h):
+def cage_tilt(t, y, at, p, G, g, h):
     """No parameters. The cage's axis a = A(q/|q|) e_x turns by da/dt = w_z A e_y - w_y A e_z with w
     in the cage's frame; its angles about y and z, -a_z and a_y where they are small, are held."""
-    w, x = q[Q_QUATERNION], q[Q_QUATERNION + 1]
-    y, z = q[Q_QUATERNION + 2], q[Q_QUATERNION + 3]
-    of_unit = 1.0 / (w * w + x * x + y * y + z * z)
-    g[0], g[1] = 2.0 * (w * y - x * z) * of_unit, 2.0 * (x * y + w * z) * of_unit
-    a_yy, a_yz = 1.0 - 2.0 * (x * x + z * z) * of_unit, 2.0 * (y * z - w * x) * of_unit
-    a_zy, a_zz = 2.0 * (y * z + w * x) * of_unit, 1.0 - 2.0 * (x * x + y * y) * of_unit
-    G[0, CAGE_TURN + 1], G[0, CAGE_TURN + 2] = a_zz, -a_zy
-    G[1, CAGE_TURN + 1], G[1, CAGE_TURN + 2] = -a_yz, a_yy
-    for k in range(2):
-        h[k] = G[k, CAGE_TURN + 1] * u[CAGE_TURN + 1] + G[k, CAGE_TURN + 2] * u[CAGE_TURN + 2]
+    q, u, b = y[at.cage_q + QUATERNION :], y[at.cage_u + TURN :], at.cage_b + TURN
+    w, i, j, k = q[0], q[1], q[2], q[3]
+    of_unit = 1.0 / (w * w + i * i + j * j + k * k)
+    g[0], g[1] = 2.0 * (w * j - i * k) * of_unit, 2.0 * (i * j + w * k) * of_unit
+    a_yy, a_yz = 1.0 - 2.0 * (i * i + k * k) * of_unit, 2.0 * (j * k - w * i) * of_unit
+    a_zy, a_zz = 2.0 * (j * k + w * i) * of_unit, 1.0 - 2.0 * (i * i + j * j) * of_unit
+    G[0, b + 1], G[0, b + 2] = a_zz, -a_zy
+    G[1, b + 1], G[1, b + 2] = -a_yz, a_yy
+    for row in range(2):
+        h[row] = G[row, b + 1] * u[1] + G[row, b + 2] * u[2]
 
 
 PATH_Y, PATH_Z, PATH_RADIUS, PATH_SPEED, PATH_PHASE = range(5)  # its parameters
 
 
 @kernel(ROWS)
-def inner_path(t, q, u, p, G, g, h):
+def inner_path(t, y, at, p, G, g, h):
     """p: y, z, radius [m], speed [rad/s], phase [rad]."""
     azimuth = p[PATH_SPEED] * t + p[PATH_PHASE]
     c, s = p[PATH_RADIUS] * cos(azimuth), p[PATH_RADIUS] * sin(azimuth)
-    g[0], g[1] = q[Q_INNER + 1] - p[PATH_Y] - c, q[Q_INNER + 2] - p[PATH_Z] - s
-    h[0], h[1] = u[INNER + 1] + p[PATH_SPEED] * s, u[INNER + 2] - p[PATH_SPEED] * c
+    q, u = at.inner_q, at.inner_u
+    g[0], g[1] = y[q + 1] - p[PATH_Y] - c, y[q + 2] - p[PATH_Z] - s
+    h[0], h[1] = y[u + 1] + p[PATH_SPEED] * s, y[u + 2] - p[PATH_SPEED] * c
     for k in range(2):
-        G[k, INNER + 1 + k] = 1.0
+        G[k, at.inner_b + 1 + k] = 1.0
 
 
 @kernel(ALL_ROWS)
-def no_rows(t, q, u, p, G, g, h):
+def no_rows(t, y, at, p, G, g, h):
     """Nothing is held beyond drive and load."""
 
 
@@ -250,17 +242,17 @@ class Constraints(NamedTuple):
 
     level: np.ndarray  # (m,) OFF, VELOCITY or POSITION
     p: np.ndarray  # (k, N_PARAMETERS)
-    ease: np.ndarray  # (14,) inverse masses and inertias; 0: drive, load or mount hold it
-    G: np.ndarray  # (m, 14) dh/du at the point evaluated last
+    ease: np.ndarray  # (n,) inverse masses and inertias; 0: drive, load or mount hold it
+    G: np.ndarray  # (m, n) dh/du at the point evaluated last, n velocities of bodies
     g: np.ndarray  # (m,)
     h: np.ndarray  # (m,)
-    pull: np.ndarray  # (m, 14 + n) accelerations that unit multipliers give
+    pull: np.ndarray  # (m, n) accelerations that unit multipliers give
     S: np.ndarray  # (m, m) G times those, then its factors
     pivot: np.ndarray  # (m,)
     x: np.ndarray  # (m,)
-    place: np.ndarray  # (2, 15) coordinates
+    place: np.ndarray  # (size,) y a little before and after
     late: np.ndarray  # (2, m) h a little before and after
-    spare: np.ndarray  # (m, 14) G and g there, which nobody asked for
+    spare: np.ndarray  # (m, n) G and g there, which nobody asked for
 
 
 def constraints_of(
@@ -268,7 +260,7 @@ def constraints_of(
 ) -> tuple[Constraints, Any]:
     """The constraints' arrays, and their rows as one function of the type ``ALL_ROWS_TYPE``."""
     kinds = [KINDS[spec.type] for spec in constraints]
-    m, z = len(layout.held), np.zeros
+    m, n, z = len(layout.held), layout.places.border, np.zeros
     p = z((len(kinds), N_PARAMETERS))
     for i, (kind, spec) in enumerate(zip(kinds, constraints, strict=True)):
         values = kind.parameters(spec)
@@ -281,41 +273,42 @@ def constraints_of(
         p[i, : len(values)] = values
     level = [LEVELS[kind.level] for kind in kinds for _ in kind.labels]
     data = Constraints(
-        np.array(level, float), p, _ease(model), z((m, MODES)), z(m), z(m),
-        z((m, MODES + layout.modes)), z((m, m)), z(m, np.int64), z(m),
-        z((2, Q_MODES)), z((2, m)), z((m, MODES)),
+        np.array(level, float), p, _ease(model, layout), z((m, n)), z(m), z(m), z((m, n)),
+        z((m, m)), z(m, np.int64), z(m), z(layout.size), z((2, m)), z((m, n)),
     )  # fmt: skip
     return data, _joined(tuple((kind.rows, len(kind.labels)) for kind in kinds))
 
 
-def _ease(model: Any) -> np.ndarray:
-    """Inverse mass or inertia (14,) of every motion of rings and cage, 0 where it is held."""
-    bodies, cage = model.bodies, model.cage
-    axial, skew, tilt, centre = bodies.free
-    mass, spin, across = bodies.ring
-    inner = [axial * centre / mass, centre / mass, centre / mass]
-    inner += [bodies.by_shaft / spin, skew / across, tilt / across]
-    outer = 0.0 if bodies.support == FIXED else 1.0 / bodies.outer[MASS]
+def _ease(model: Any, layout: Layout) -> np.ndarray:
+    """Inverse mass or inertia (n,) of every motion of the bodies, 0 where it is held."""
+    cage, ease = model.cage, np.zeros(layout.places.border)
     inertia = np.trace(cage.G0) - np.diag(cage.G0)
-    return np.array([*inner, outer, outer, *[1.0 / cage.mass] * 3, *(1.0 / inertia)])
+    bodies = layout.border(ease)
+    for name in ("inner", "outer"):
+        ring = getattr(model, f"{name}_ring")
+        free = ring.free * (np.arange(len(ring.free)) > 2) if ring.stands else ring.free
+        bodies[name][:] = free / ring.inertia[[MASS, MASS, MASS, AXIAL, TRANSVERSE, TRANSVERSE]]
+    bodies["cage"][:], bodies["omega"][:] = 1.0 / cage.mass, 1.0 / inertia
+    bodies["modes"][:] = 1.0 / np.diag(cage.mff)
+    return ease
 
 
 def check_independent(
-    constraints: Sequence[Constraint], data: Constraints, q: np.ndarray, u: np.ndarray
+    constraints: Sequence[Constraint], data: Constraints, layout: Layout, y: np.ndarray
 ) -> None:
     """Raise InputError for a constraint on what drive, load, mount or those before it hold, where
-    rings and cage are at q (15,) and move as u (14,).
+    bodies are and move as y has it.
 
     A place at which a constraint has no slope, as the middle of a circle has none towards it, is
-    left by a nudge of the centres in q.
+    left by a nudge of the centres in y.
     """
-    basis = np.zeros((0, MODES))
+    basis = np.zeros((0, layout.places.border))
     for i, spec in enumerate(constraints):
-        G = _slopes(spec, data.p[i], q, u)
+        G = _slopes(spec, data.p[i], layout.places, y)
         if not _has_slope(G):
-            for centre in (Q_INNER, Q_CAGE):
-                q[centre + 1 : centre + 3] += _NUDGE
-            G = _slopes(spec, data.p[i], q, u)
+            for name in ("inner", "cage"):
+                layout.q(y)[name][1:3] += _NUDGE
+            G = _slopes(spec, data.p[i], layout.places, y)
         if not _has_slope(G):
             raise InputError(
                 f"constraints.{i} ({spec.type}) has no slope G at the start, or one that is not a "
@@ -334,12 +327,12 @@ def check_independent(
             basis = np.vstack([basis, left / np.linalg.norm(left)])
 
 
-def _slopes(spec: Constraint, p: np.ndarray, q: np.ndarray, u: np.ndarray) -> np.ndarray:
-    """G (m, 14) of one constraint; InputError if it fills more rows than it has labels."""
+def _slopes(spec: Constraint, p: np.ndarray, at: Places, y: np.ndarray) -> np.ndarray:
+    """G (m, n) of one constraint; InputError if it fills more rows than it has labels."""
     kind = KINDS[spec.type]
     m = len(kind.labels)
-    G, g, h = np.zeros((m + _BEYOND, MODES)), np.zeros(m + _BEYOND), np.zeros(m + _BEYOND)
-    kind.rows(0.0, q, u, p, G, g, h)
+    G, g, h = np.zeros((m + _BEYOND, at.border)), np.zeros(m + _BEYOND), np.zeros(m + _BEYOND)
+    kind.rows(0.0, y, at, p, G, g, h)
     if G[m:].any() or g[m:].any() or h[m:].any():
         raise InputError(
             f"Constraint '{spec.type}' fills more rows than the {m} that its labels name; register "
@@ -359,8 +352,8 @@ def _joined(kinds: tuple[tuple[Any, int], ...]) -> Any:
         return no_rows
     (first, m), rest = kinds[0], _joined(kinds[1:])
 
-    def rows(t, q, u, p, G, g, h):
-        first(t, q, u, p[0], G[:m], g[:m], h[:m])
-        rest(t, q, u, p[1:], G[m:], g[m:], h[m:])
+    def rows(t, y, at, p, G, g, h):
+        first(t, y, at, p[0], G[:m], g[:m], h[:m])
+        rest(t, y, at, p[1:], G[m:], g[m:], h[m:])
 
     return numba.njit(ALL_ROWS, **{**LEAN, "cache": False})(rows)

@@ -42,10 +42,8 @@ POWERS = (
 EXCHANGED = RACE_DAMPING  # so many, the first ones, the bearing exchanges with the outside
 # contact places of an element; from POCKET on the faces of its pocket, then ribs
 INNER_RACE, OUTER_RACE, POCKET = range(3)
-MASS, AXIAL, TRANSVERSE = range(3)  # places in ``Bodies.element`` and ``ring``: mass, inertias
-OUTER_STIFFNESS, OUTER_DAMPING, OUTER_CLEARANCE = 1, 2, 3  # in ``Bodies.outer`` behind MASS
-FIXED, BUSHING, LOOSE = range(3)  # in ``Bodies.support``; loose: with clearance in its bore
-FREE_AXIAL, FREE_SKEW, FREE_TILT, FREE_CENTRE = range(4)  # places in ``Bodies.free``
+MASS, AXIAL, TRANSVERSE = range(3)  # in ``Bodies.element``, ``RingBody.inertia``: mass, inertias
+RING_AXIS, RING_SPIN = range(2)  # of ``Scratch.rings``
 OF_SPEED, OF_LOAD, OF_AXIAL = range(3)  # rows of ``Bodies.waves``
 SHAFT_STIFFNESS, SHAFT_DAMPING = range(2)  # places in ``Bodies.shaft``
 EVENT_TIME, EVENT_ELEMENT, EVENT_PLACE, EVENT_CLOSED = range(4)  # in a row of ``Events.rows``
@@ -54,6 +52,11 @@ KINETIC, STRAIN, IN_CONTACTS, IN_MOUNT = range(4)  # places in ``Report.energy``
 # places in ``law`` behind those of ``contacts.evaluation``: the rows of further constraints, what
 # puts these in (``holding``), and the family's functions ``separate``
 CONSTRAINT_EQUATIONS, HOLD, FAMILY_PARTS = 10, 11, 12
+# rows of ``Scratch.vec``: of the cage in space; of the pair under work, in the roller's frame F; of
+# lands, forces and moments on the cage and on the ring that they meet
+(
+    CAGE_SPIN, LEVER, PARTNER_V, PARTNER_W, CAGE_FORCE, CAGE_MOMENT, RING_FORCE, RING_MOMENT, N_VEC,
+) = range(9)  # fmt: skip
 
 
 class Bodies(NamedTuple):
@@ -62,9 +65,6 @@ class Bodies(NamedTuple):
     element: np.ndarray  # (3,) of a rolling element: mass, axial and transverse inertia
     radius: np.ndarray  # (Z,) roller radii
     pitch: float  # radius of the pitch circle
-    ring: np.ndarray  # (3,) inner ring with what moves with it
-    outer: np.ndarray  # (4,) mass, stiffness, damping, clearance
-    support: int  # of the outer ring: FIXED, BUSHING or LOOSE
     gravity: np.ndarray  # (3,)
     drag: np.ndarray  # (2,) roller 0.5 rho C A, cage 0.5 rho C_f 2 pi r^4 b
     by_shaft: int  # 1 if a compliant shaft drives (records hold no booleans)
@@ -76,9 +76,20 @@ class Bodies(NamedTuple):
     load_direction: np.ndarray  # (2,) y, z
     waves: np.ndarray  # (3, 4) of speed, radial load, axial load, see time_functions.py
     moments: np.ndarray  # (2,) about y and z on the inner ring
-    free: np.ndarray  # (4,) 1 where the inner ring is free: axially, in skew, in tilt, its centre
-    spring: np.ndarray  # (3, 2) stiffness and damping of the shaft, axially, in skew, in tilt
-    misalignment: float
+
+
+class RingBody(NamedTuple):
+    """A ring: its mass, and what holds it to the ground. Arrays of six are in the order of its
+    velocities: x, y, z, spin, skew, tilt."""
+
+    inertia: np.ndarray  # (3,) mass, axial and transverse inertia, with what moves with it
+    free: np.ndarray  # (6,) 1 where it is free; else it is held or driven
+    stands: int  # 1: its centre stays where it is
+    stiffness: np.ndarray  # (6,) of springs, zero where it is held
+    damping: np.ndarray  # (6,)
+    rest: np.ndarray  # (6,) coordinates at which springs rest, or it is held
+    loose: int  # 1: with clearance in its bore, where springs in y and z only press
+    clearance: float
 
 
 class Memory(NamedTuple):
@@ -104,7 +115,7 @@ class Tangent(NamedTuple):
     Kbb: np.ndarray  # (nb, nb)
     Cbb: np.ndarray
     Mbb: np.ndarray  # (nb, nb)
-    held: np.ndarray  # (m, 14) G of the constraints beyond drive and load, where it acts
+    held: np.ndarray  # (m, bodies' velocities) G of further constraints, where it acts
     active: np.ndarray  # (Z,) roller touches its pocket
     turns: np.ndarray  # (3,) places in an element's coordinates of what its rotations turn
 
@@ -130,8 +141,8 @@ class Report(NamedTuple):
     energy: np.ndarray  # (4,) places as above; that of the mount holds the shaft's springs too
     contact: np.ndarray  # (Z, places) booleans: races 2, faces of the pocket, ribs
     approach: np.ndarray  # (Z, places) approach speed of each
-    body_force: np.ndarray  # (3,) contact force on the outer ring
-    outer_races: np.ndarray  # (2,) the share of its races
+    outer_wrench: np.ndarray  # (6,) of contacts on the outer ring, in space
+    outer_races: np.ndarray  # (6,) the share of its races
 
 
 def new_memory(report: Report) -> Memory:
@@ -154,10 +165,13 @@ class Scratch(NamedTuple):
     poses: np.ndarray  # (Z, KEPT, 3) of the rollers, see ``keep_pose``
     wrenches: np.ndarray  # (Z, 6) of all contacts on each element
     sums: np.ndarray  # (N_SUMS,) see ``contacts.evaluation``
-    vec: np.ndarray  # (9, 3), see residual.py
-    border: np.ndarray  # (nb,) generalised forces on the border
-    shift: np.ndarray  # (14,) displacement of rings and cage
-    moved: np.ndarray  # (15,) what it makes of their coordinates
+    vec: np.ndarray  # (N_VEC, 3), rows as above
+    rings: np.ndarray  # (2, 2, 3) of both rings, in space: axis and angular velocity
+    held: np.ndarray  # (2,) force of the outer ring on its housing, y and z
+    pull: np.ndarray  # (3,) of springs on a ring: axially, in skew, in tilt
+    border: np.ndarray  # (bodies' velocities,) generalised forces on bodies
+    shift: np.ndarray  # (bodies' velocities,) displacement of bodies
+    moved: np.ndarray  # (bodies' coordinates,) what it makes of these
     modal: np.ndarray  # (2, n8) modal coordinates and rates, filled up with zeros
     out: np.ndarray  # (size,) residual that nobody asked for
 
@@ -184,12 +198,12 @@ def new_work(
 ) -> Work:  # fmt: skip
     """Fresh workspaces for one thread, of elements with so many contact places; ``turns`` as
     ``Tangent`` has it; ``other_land``: the cage may meet the ring that does not guide it."""
-    Z, n, nb = layout.elements, layout.modes, layout.n_border
+    Z, n, nb, bodies = layout.elements, layout.modes, layout.n_border, layout.places.border
     places = 2 + faces + ribs
     z = np.zeros
     tangent = Tangent(
         z((Z, 6, 6)), z((Z, 6, 6)), z((Z, 6, nb)), z((Z, 6, nb)), z((Z, nb, 6)), z((Z, nb, 6)),
-        z((nb, nb)), z((nb, nb)), z((nb, nb)), z((len(layout.held), 14)), z(Z, np.int64),
+        z((nb, nb)), z((nb, nb)), z((nb, nb)), z((len(layout.held), bodies)), z(Z, np.int64),
         np.array(turns),
     )  # fmt: skip
     report = Report(
@@ -197,11 +211,12 @@ def new_work(
         z((Z, 2, points)), z((Z, 2, points)),
         z((Z, faces, stations, 3)), z((Z, N_LOCAL)), z((Z, ribs)), z(3),
         z((land_stations * (2 if other_land else 1), 2)), z((LANDS, 2)), z(len(POWERS)), z(4),
-        z((Z, places), np.int64), z((Z, places)), z(3), z(2),
+        z((Z, places), np.int64), z((Z, places)), z(6), z(6),
     )  # fmt: skip
     scratch = Scratch(
         z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), np.eye(3), z((Z, KEPT, 3)), z((Z, 6)),
-        z(N_SUMS), z((9, 3)), z(14 + n), z(14), z(15), z((2, filled(n, 8))), z(layout.size),
+        z(N_SUMS), z((N_VEC, 3)), z((2, 2, 3)), z(2), z(3), z(bodies), z(bodies),
+        z(layout.places.coordinates), z((2, filled(n, 8))), z(layout.size),
     )  # fmt: skip
     return Work(
         new_pose(), new_slices(), new_pair(), race_work, pocket_work, land_work(land_stations),

@@ -1,52 +1,89 @@
-"""The index map of y = (q, u, lambda, mu, s): which unknown lives where."""
+"""Which unknown lives where: the places of y = (q, u, lambda, mu, s) follow from a list of bodies.
+
+First come the rolling elements, then the bodies of the list in its order. Kernels get the places as
+numbers (``Places``); no constant says where a body is. The border of Newton's matrix has the
+velocities of the bodies in the same order, then the multipliers.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
 from flexcage.core.jit import part
+from flexcage.core.vectors import RIGID, TURN
 
 PER_ELEMENT = 6  # coordinates, and velocities, of a rolling element
-# places in u behind the elements, and in the border: velocity of the centre (x, y, z) in space;
-# angular velocity of the inner ring in its non-spinning frame (spin first), of the cage in its own
-INNER, INNER_TURN, OUTER, CAGE, CAGE_TURN, MODES = 0, 3, 6, 8, 11, 14
-# places in q behind the elements: centre; skew, tilt and spin of the inner ring; the outer's centre
-# (y, z); quaternion
-Q_INNER, Q_INNER_TURN, Q_OUTER, Q_CAGE, Q_QUATERNION, Q_MODES = 0, 3, 6, 8, 11, 15
+# a ring: centre (x, y, z), skew, tilt, spin; velocity of its centre, angular velocity in its
+# non-spinning frame, spin first
+RING = 6
+# a floating frame: centre, quaternion, modes; velocity of its centre in space, angular velocity in
+# its own frame, rates of the modes
+QUATERNION, FRAME = 3, 7  # in its coordinates: where the quaternion begins, and the modes
 RING_FORCES = 4  # of every element on rings that bend: two on either ring
-N_LAMBDA = 4  # inner ring: axial position, skew, tilt, drive
-N_MU = 3  # position-level constraints among them
-N_OWN = N_LAMBDA + N_MU  # multipliers of every bearing, before those of further constraints
 CONSTRAINTS = ("axial_force", "moment_y", "moment_z", "drive_torque")
-AXIAL_FORCE, MOMENT_Y, MOMENT_Z, DRIVE_TORQUE = range(N_LAMBDA)  # places in lambda
-# the inner ring's velocities on which they act
-HELD_VELOCITIES = (INNER, INNER_TURN + 1, INNER_TURN + 2, INNER_TURN)
+AXIAL_FORCE, MOMENT_Y, MOMENT_Z, DRIVE_TORQUE = range(4)  # places in lambda
+N_LAMBDA = len(CONSTRAINTS)  # multipliers that drive and hold the inner ring
+N_MU = 3  # position-level constraints among them: all but the drive
+N_OWN = N_LAMBDA + N_MU  # multipliers of every bearing, before those of further constraints
+HELD_VELOCITIES = (0, 4, 5, 3)  # the inner ring's velocities on which they act
 REACTION_UNITS = ("N", "N m", "N m", "N m")  # of their multipliers
 
 
 class Places(NamedTuple):
-    """Where in y kernels find what: first come the elements' coordinates, at 0."""
+    """Where kernels find what: q, u of a body are the places of its first coordinate and velocity
+    in y (of their rates in y', of their rows in the residual), b of its velocity in the border."""
 
-    rest_q: int  # coordinates of rings and cage, ``Q_INNER`` to ``Q_MODES``
-    u: int  # velocities of the elements
-    rest_u: int  # of rings and cage, ``INNER`` to ``MODES``
-    lam: int  # multipliers of drive and load
-    held: int  # those of further constraints
+    elements: int  # so many
+    modes: int  # so many of the cage
+    q: int  # of the elements
+    u: int
+    inner_q: int
+    inner_u: int
+    inner_b: int
+    outer_q: int
+    outer_u: int
+    outer_b: int
+    cage_q: int
+    cage_u: int
+    cage_b: int
+    bodies_q: int  # of all bodies
+    bodies_u: int
+    border: int  # so many velocities in the border
+    coordinates: int  # so many of all bodies
+    lam: int  # multipliers of drive and load, in y; in the border they follow the velocities
+    held: int  # those of further constraints, in y
+    loads: int  # forces that rings bear
+    swings: int  # coordinates of an outer ring that swings
 
 
-def _places(elements: int, modes: int) -> Places:
-    """The places in y of a bearing with so many elements and modes."""
-    own = PER_ELEMENT * elements
-    u = own + Q_MODES + modes
-    lam = u + own + MODES + modes
-    return Places(own, u, u + own, lam, lam + N_OWN)
+@dataclass(frozen=True)
+class Body:
+    """One body of a bearing: its name, and how many coordinates and velocities it has."""
+
+    name: str
+    coordinates: int
+    velocities: int
+    modes: int = 0
 
 
-places = part(_places)  # in kernels
+def ring(name: str) -> Body:
+    """A rigid ring."""
+    return Body(name, RING, RING)
+
+
+def floating(name: str, modes: int) -> Body:
+    """A body in a floating frame, with so many modes."""
+    return Body(name, FRAME + modes, RIGID + modes, modes)
+
+
+def bodies_of_bearing(modes: int) -> tuple[Body, ...]:
+    """Inner ring, outer ring, and a cage with so many modes."""
+    return ring("inner"), ring("outer"), floating("cage", modes)
 
 
 @part
@@ -55,107 +92,122 @@ def of_element(i):
     return slice(PER_ELEMENT * i, PER_ELEMENT * (i + 1))
 
 
-# where behind the elements q and u have what; modes follow
-_IN_Q = {
-    "inner": slice(Q_INNER, Q_OUTER),
-    "outer": slice(Q_OUTER, Q_CAGE),
-    "cage": slice(Q_CAGE, Q_QUATERNION),
-    "quaternion": slice(Q_QUATERNION, Q_MODES),
-}
-_IN_U = {
-    "inner": slice(INNER, OUTER),
-    "outer": slice(OUTER, CAGE),
-    "cage": slice(CAGE, CAGE_TURN),
-    "omega": slice(CAGE_TURN, MODES),
-}
-
-
 @dataclass(frozen=True)
 class Layout:
-    """Slices of y for Z rolling elements and n modes.
+    """Slices of y for Z rolling elements and a list of bodies.
 
-    q: elements (x, r, psi, skew, tilt, spin); inner ring (x, y, z, skew, tilt, spin); outer ring
-    (y, z); cage (x, y, z, quaternion, modes). u: elements (v_x, v_r, v_psi, w_axis, w_2, w_3);
-    ring (v, w in its non-spinning frame); outer (v_y, v_z); cage (v in space, w in the body,
-    modal rates). The border of Newton's matrix is (ring 6, outer 2, cage 6 + n, lambda, mu), and
-    the further constraints' lambda and mu, one of each for every name in ``held``. Where rings bend
-    y ends with the forces s that they bear of every element (``system.bending``), and with the
-    coordinates and velocities of an outer ring that swings (``system.swinging``).
+    q: elements (x, r, psi, skew, tilt, spin), then each body's; u: elements (v_x, v_r, v_psi,
+    w_axis, w_2, w_3), then each body's. ``ring`` and ``floating`` say what these are. The border of
+    Newton's matrix is (the bodies' velocities, lambda, mu, and the further constraints' lambda and
+    mu, one of each for every name in ``held``). Where rings bend y ends with the forces s that they
+    bear of every element (``system.bending``), and with the coordinates and velocities of an outer
+    ring that swings (``system.swinging``).
     """
 
     elements: int
-    modes: int
+    bodies: tuple[Body, ...]
     held: tuple[str, ...] = ()  # names of the scalar constraints beyond ``CONSTRAINTS``
     bends: bool = False  # do rings bend?
     ring_modes: int = 0  # coordinates of an outer ring that swings
 
     @property
+    def modes(self) -> int:
+        """Modes of the cage."""
+        return sum(body.modes for body in self.bodies)
+
+    @property
     def n_q(self) -> int:
-        return self._places.u
+        return self.places.u
 
     @property
     def n_u(self) -> int:
-        return self._places.lam - self._places.u
-
-    @property
-    def _places(self) -> Places:
-        return _places(self.elements, self.modes)
+        return self.places.lam - self.places.u
 
     @property
     def n_border(self) -> int:
-        return MODES + self.modes + N_OWN + 2 * len(self.held)
+        return self.places.border + N_OWN + 2 * len(self.held)
 
     @property
     def size(self) -> int:
-        return self._swings + 2 * self.ring_modes
-
-    @property
-    def _end(self) -> int:
-        """Where the multipliers end."""
-        return self._places.held + 2 * len(self.held)
-
-    @property
-    def _swings(self) -> int:
-        """Where the forces that rings bear end."""
-        return self._end + (RING_FORCES * self.elements if self.bends else 0)
+        return self.places.swings + 2 * self.ring_modes
 
     @property
     def reactions(self) -> tuple[str, ...]:
         """Names of the multipliers, in their order."""
         return (*CONSTRAINTS, *self.held)
 
+    @cached_property
+    def places(self) -> Places:
+        """The places in y and in the border."""
+        own = PER_ELEMENT * self.elements
+        q = own + sum(body.coordinates for body in self.bodies)
+        v = sum(body.velocities for body in self.bodies)
+        lam = q + own + v
+        end = lam + N_OWN + 2 * len(self.held)
+        at = {
+            f"{body.name}_{kind}": place
+            for body, *where in self._each(own, q + own, 0)
+            for kind, place in zip("qub", where, strict=True)
+        }
+        return Places(
+            elements=self.elements, modes=self.modes, q=0, u=q, **at, bodies_q=own,
+            bodies_u=q + own, border=v, coordinates=q - own, lam=lam, held=lam + N_OWN, loads=end,
+            swings=end + (RING_FORCES * self.elements if self.bends else 0),
+        )  # fmt: skip
+
+    def _each(self, q: int, u: int, b: int) -> Iterator[tuple[Body, int, int, int]]:
+        """Every body with the places of its first coordinate, velocity and row of the border, where
+        those of all bodies begin at q, u and b."""
+        for body in self.bodies:
+            yield body, q, u, b
+            q, u, b = q + body.coordinates, u + body.velocities, b + body.velocities
+
     def q(self, y: np.ndarray) -> dict[str, np.ndarray]:
         """Named views of the coordinates in y (or of their rates in y')."""
-        return self._views(y, _IN_Q, Q_MODES)
+        at = self.places
+        views = {"elements": self._elements(y[..., : at.bodies_q])}
+        for body, first, _, _ in self._each(at.bodies_q, at.bodies_u, 0):
+            own = y[..., first : first + body.coordinates]
+            if body.coordinates == RING:
+                views[body.name] = own
+            else:
+                views[body.name] = own[..., :QUATERNION]
+                views |= {"quaternion": own[..., QUATERNION:FRAME], "modes": own[..., FRAME:]}
+        return views
 
     def u(self, y: np.ndarray) -> dict[str, np.ndarray]:
         """Named views of the velocities in y (or of accelerations in y')."""
-        return self._views(y[..., self._places.u :], _IN_U, MODES)
+        at = self.places
+        own = self._elements(y[..., at.u : at.bodies_u])
+        return {"elements": own, **self.border(y[..., at.bodies_u :])}
 
-    def _views(
-        self, v: np.ndarray, bodies: Mapping[str, slice], modes: int
-    ) -> dict[str, np.ndarray]:
-        """Views of the elements, then of rings and cage, then of the modes from ``modes`` on."""
-        end = self._places.rest_q
-        own, rest = v[..., :end], v[..., end:]
-        return {
-            "elements": own.reshape(*v.shape[:-1], self.elements, PER_ELEMENT),
-            **{name: rest[..., where] for name, where in bodies.items()},
-            "modes": rest[..., modes : modes + self.modes],
-        }
+    def border(self, v: np.ndarray) -> dict[str, np.ndarray]:
+        """Named views of what v has of every body's velocities, from the first of all bodies on."""
+        views = {}
+        for body, _, _, first in self._each(0, 0, 0):
+            own = v[..., first : first + body.velocities]
+            if body.coordinates == RING:
+                views[body.name] = own
+            else:
+                views[body.name] = own[..., :TURN]
+                views |= {"omega": own[..., TURN:RIGID], "modes": own[..., RIGID:]}
+        return views
+
+    def _elements(self, own: np.ndarray) -> np.ndarray:
+        return own.reshape(*own.shape[:-1], self.elements, PER_ELEMENT)
 
     def ring_forces(self, y: np.ndarray) -> np.ndarray:
         """View (..., 2, Z, 2) of the forces that both rings bear, at their ports; none where rings
         are rigid."""
         count = self.elements if self.bends else 0
-        return y[..., self._end : self._swings].reshape(*y.shape[:-1], 2, count, 2)
+        return y[..., self.places.loads : self.places.swings].reshape(*y.shape[:-1], 2, count, 2)
 
     def ring_coordinates(self, y: np.ndarray) -> np.ndarray:
         """View (..., 2, M) of the coordinates of an outer ring that swings, then velocities."""
-        return y[..., self._swings :].reshape(*y.shape[:-1], 2, self.ring_modes)
+        return y[..., self.places.swings :].reshape(*y.shape[:-1], 2, self.ring_modes)
 
     def multipliers(self, y: np.ndarray) -> np.ndarray:
         """Forces and torques of the constraints ``reactions``, a copy."""
-        start, further = self._places.lam, self._places.held
+        start, further = self.places.lam, self.places.held
         own, more = y[..., start : start + N_LAMBDA], y[..., further : further + len(self.held)]
         return np.concatenate([own, more], axis=-1)

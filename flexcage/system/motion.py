@@ -12,7 +12,7 @@ import numpy as np
 from flexcage.bodies.floating_frame import BodyData, FlexibleBody
 from flexcage.contacts.land import LandData
 from flexcage.contacts.spec import Contacts, Lubricant
-from flexcage.system.data import Bodies, Work
+from flexcage.system.data import Bodies, RingBody, Work
 from flexcage.system.layout import Layout
 from flexcage.system.spec import Drive, Load, Mount
 
@@ -30,6 +30,10 @@ class Model(Protocol):
 
     @property
     def bodies(self) -> Bodies: ...
+    @property
+    def inner_ring(self) -> RingBody: ...
+    @property
+    def outer_ring(self) -> RingBody: ...
     @property
     def cage(self) -> BodyData: ...
     @property
@@ -68,7 +72,7 @@ def parts_type(name: str, model: type, module: str) -> Any:
     own: Any = model
     groups = (
         *own._fields, "memory", *Work._fields, "matrix", "events", "samples", "between",
-        "rates", "constraints",
+        "rates", "constraints", "places",
     )  # fmt: skip
     return namedtuple(name, groups, module=module)
 

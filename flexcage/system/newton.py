@@ -9,23 +9,18 @@ from __future__ import annotations
 
 from flexcage.contacts.evaluation import ACCEPT, RESIDUAL, TANGENT
 from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT, U_SKEW, U_SPIN, U_TILT
-from flexcage.core.jit import VECTORISED, fields, kernel, zero
+from flexcage.core.jit import VECTORISED, array_from, fields, kernel, part, zero
 from flexcage.core.rotation import quaternion_rate, rotation_of_quaternion_change
-from flexcage.core.vectors import TURN
+from flexcage.core.vectors import RIGID, TURN
 from flexcage.solve import bordered
 from flexcage.system.data import AXIAL, MASS, TRANSVERSE
 from flexcage.system.layout import (
-    CAGE_TURN,
+    FRAME,
     HELD_VELOCITIES,
-    MODES,
     N_LAMBDA,
     N_OWN,
-    OUTER,
     PER_ELEMENT,
-    Q_MODES,
-    Q_OUTER,
-    Q_QUATERNION,
-    places,
+    QUATERNION,
 )
 from flexcage.system.sampling import give_powers
 
@@ -48,16 +43,15 @@ def linearise(t, y, yd, data):
 
 def factor(alpha, data):
     d = data[0]
-    return assemble(alpha, fields(d.bodies), fields(d.tangent), fields(d.matrix))
+    return assemble(alpha, fields(d.bodies), fields(d.places), fields(d.tangent), fields(d.matrix))
 
 
 @kernel(fastmath=VECTORISED)
-def assemble(alpha, bodies, tan, m):
-    """Newton's matrix alpha M + C + K/alpha in blocks, and its factors."""
+def assemble(alpha, bodies, at, tan, m):
+    """Newton's matrix alpha M + C + K/alpha in blocks, and its factors; ``at``: ``Places``."""
     mass, Ia, It = bodies.element[MASS], bodies.element[AXIAL], bodies.element[TRANSVERSE]
     b = 1.0 / alpha
-    nb, further = m.S.shape[0], tan.held.shape[0]
-    n6 = nb - N_OWN - 2 * further
+    nb, further, multipliers = m.S.shape[0], tan.held.shape[0], at.border
     for i in range(m.A.shape[0]):
         high = nb if m.active[i] else m.low
         for r in range(6):
@@ -75,54 +69,69 @@ def assemble(alpha, bodies, tan, m):
     for r in range(nb):
         for c in range(nb):
             m.S[r, c] = alpha * tan.Mbb[r, c] + tan.Cbb[r, c] + b * tan.Kbb[r, c]
-    # multipliers: forces on the inner ring
+    # multipliers: forces on the inner ring, and on any body
     for k in range(N_LAMBDA):
-        m.S[HELD_VELOCITIES[k], n6 + k] -= 1.0
+        m.S[at.inner_b + HELD_VELOCITIES[k], multipliers + k] -= 1.0
     for k in range(further):
-        for c in range(MODES):
-            m.S[c, n6 + N_OWN + k] -= tan.held[k, c]
+        for c in range(at.border):
+            m.S[c, multipliers + N_OWN + k] -= tan.held[k, c]
     return _factor_bordered(m)
 
 
 def backsolve(alpha, y, r, data):
-    newton_step(alpha, y, r, fields(data[0].tangent), fields(data[0].matrix))
+    d = data[0]
+    newton_step(alpha, y, r, fields(d.places), fields(d.tangent), fields(d.matrix))
+
+
+@part
+def _ring_displacement(r, s):
+    """Kinematic residuals of a ring as displacements, in the order of its velocities."""
+    s[0], s[1], s[2] = r[0], r[1], r[2]
+    s[U_SPIN], s[U_SKEW], s[U_TILT] = r[Q_SPIN], r[Q_SKEW], r[Q_TILT]
+
+
+@part
+def _ring_change(s, r):
+    """Changes of a ring's coordinates by displacements."""
+    r[0], r[1], r[2] = s[0], s[1], s[2]
+    r[Q_SPIN], r[Q_SKEW], r[Q_TILT] = s[U_SPIN], s[U_SKEW], s[U_TILT]
 
 
 @kernel(fastmath=VECTORISED)
-def newton_step(alpha, y, r, tan, m):
+def newton_step(alpha, y, r, at, tan, m):
     """r <- Newton step for the residual r, all unknowns; alpha is that of the factors."""
-    Z = m.A.shape[0]
-    nb, further = m.S.shape[0], tan.held.shape[0]
-    nm = nb - MODES - N_OWN - 2 * further
-    at = places(Z, nm)
-    z, nq = at.rest_q, at.u
-    b = 1.0 / alpha
+    nb, further, nm, n = m.S.shape[0], tan.held.shape[0], at.modes, at.border
+    nq, b = at.u, 1.0 / alpha
     s, sb = m.blocks[0], m.border[0]  # kinematic residuals as displacements
     x, xb = m.blocks[1], m.border[1]  # right-hand side, then velocities
     zero(sb)
-    for i in range(Z):
+    for i in range(at.elements):
         o = PER_ELEMENT * i
         s[i, 0], s[i, 1], s[i, 2] = r[o], r[o + 1], r[o + 2] * y[o + 1]
         for c in range(3):
             s[i, TURN + c] = r[o + tan.turns[c]]
-    sb[0], sb[1], sb[2] = r[z], r[z + 1], r[z + 2]
-    sb[U_SPIN], sb[U_SKEW], sb[U_TILT] = r[z + Q_SPIN], r[z + Q_SKEW], r[z + Q_TILT]
-    for c in range(5):
-        sb[OUTER + c] = r[z + Q_OUTER + c]
-    quat, r_quat = y[z + Q_QUATERNION : z + Q_MODES], r[z + Q_QUATERNION : z + Q_MODES]
-    rotation_of_quaternion_change(quat, r_quat, sb[CAGE_TURN:MODES])
+    _ring_displacement(array_from(r, at.inner_q), array_from(sb, at.inner_b))
+    _ring_displacement(array_from(r, at.outer_q), array_from(sb, at.outer_b))
+    cage, r_cage, s_cage = (
+        array_from(y, at.cage_q), array_from(r, at.cage_q), array_from(sb, at.cage_b)
+    )  # fmt: skip
+    quat, r_quat = array_from(cage, QUATERNION), array_from(r_cage, QUATERNION)
+    turn = array_from(s_cage, TURN)
+    for c in range(3):
+        s_cage[c] = r_cage[c]
+    rotation_of_quaternion_change(quat, r_quat, turn)
     stretch, norm = 0.0, 0.0  # of the quaternion: no rotation, but it must not run away
-    for c in range(Q_QUATERNION, Q_MODES):
-        stretch += y[z + c] * r[z + c]
-        norm += y[z + c] * y[z + c]
+    for c in range(4):
+        stretch += quat[c] * r_quat[c]
+        norm += quat[c] * quat[c]
     for k in range(nm):
-        sb[MODES + k] = r[z + Q_MODES + k]
+        s_cage[RIGID + k] = r_cage[FRAME + k]
     for k in range(nb):
         f = 0.0
-        for c in range(MODES + nm):
+        for c in range(n):
             f += tan.Kbb[k, c] * sb[c]
-        xb[k] = -r[nq + z + k] + b * f
-    for i in range(Z):
+        xb[k] = -r[at.bodies_u + k] + b * f
+    for i in range(at.elements):
         high = nb if m.active[i] else m.low
         for k in range(6):
             f = 0.0
@@ -137,7 +146,7 @@ def newton_step(alpha, y, r, tan, m):
                 f += tan.Kbr[i, k, c] * s[i, c]
             xb[k] += b * f
     _solve_bordered(m, x, xb)
-    for i in range(Z):
+    for i in range(at.elements):
         o = PER_ELEMENT * i
         for k in range(6):
             r[nq + o + k] = x[i, k]
@@ -145,24 +154,22 @@ def newton_step(alpha, y, r, tan, m):
         r[o], r[o + 1], r[o + 2] = s[i, 0], s[i, 1], s[i, 2] / y[o + 1]
         for c in range(3):
             r[o + tan.turns[c]] = s[i, TURN + c]
-    for k in range(MODES + nm):
-        r[nq + z + k] = xb[k]
+    for k in range(n):
+        r[at.bodies_u + k] = xb[k]
         sb[k] = b * (xb[k] - sb[k])
     for k in range(N_OWN + 2 * further):
-        r[at.lam + k] = xb[MODES + nm + k]
-    place = MODES + nm + N_LAMBDA  # of the multipliers that hold places
-    sb[0] += b * xb[place]
-    sb[U_SKEW] += b * xb[place + 1]
-    sb[U_TILT] += b * xb[place + 2]
+        r[at.lam + k] = xb[n + k]
+    for k in range(3):  # multipliers that hold places
+        sb[at.inner_b + HELD_VELOCITIES[k]] += b * xb[n + N_LAMBDA + k]
     for k in range(further):
-        for c in range(MODES):
-            sb[c] += b * tan.held[k, c] * xb[MODES + N_OWN + nm + further + k]
-    r[z], r[z + 1], r[z + 2] = sb[0], sb[1], sb[2]
-    r[z + Q_SKEW], r[z + Q_TILT], r[z + Q_SPIN] = sb[U_SKEW], sb[U_TILT], sb[U_SPIN]
-    for c in range(5):
-        r[z + Q_OUTER + c] = sb[OUTER + c]
-    quaternion_rate(quat, sb[CAGE_TURN:MODES], r_quat)
-    for c in range(Q_QUATERNION, Q_MODES):
-        r[z + c] -= b * stretch / norm * y[z + c]
+        for c in range(n):
+            sb[c] += b * tan.held[k, c] * xb[n + N_OWN + further + k]
+    _ring_change(array_from(sb, at.inner_b), array_from(r, at.inner_q))
+    _ring_change(array_from(sb, at.outer_b), array_from(r, at.outer_q))
+    for c in range(3):
+        r_cage[c] = s_cage[c]
+    quaternion_rate(quat, turn, r_quat)
+    for c in range(4):
+        r_quat[c] -= b * stretch / norm * quat[c]
     for k in range(nm):
-        r[z + Q_MODES + k] = sb[MODES + k]
+        r_cage[FRAME + k] = s_cage[RIGID + k]

@@ -39,7 +39,7 @@ from flexcage.system import newton, rates, sampling
 from flexcage.system.constraints import ALL_ROWS_TYPE, Constraints, constraints_of, units_of
 from flexcage.system.data import LANDS, POWERS, Memory, Report, Work, new_memory
 from flexcage.system.holding import hold, hold_nothing
-from flexcage.system.layout import Layout
+from flexcage.system.layout import RING, Layout, Places
 from flexcage.system.motion import Motion
 from flexcage.system.rates import RatesWork, modal_oscillators, new_rates_work
 from flexcage.system.spec import Constraint
@@ -129,6 +129,7 @@ class BearingData(NamedTuple):
     between: Between
     rates: RatesWork
     constraints: Constraints
+    places: Places
 
 
 def parts(kind: Any, data: BearingData) -> Any:
@@ -136,7 +137,7 @@ def parts(kind: Any, data: BearingData) -> Any:
     of the type ``Motion.parts``."""
     groups = (
         *data.model, data.memory, *data.work, data.matrix, data.events, data.samples,
-        data.between, data.rates, data.constraints,
+        data.between, data.rates, data.constraints, data.places,
     )  # fmt: skip
     return kind(*(boxed(group) for group in groups))
 
@@ -170,6 +171,11 @@ def law_functions(contacts: Contacts) -> tuple:
     )
 
 
+def _low(model: Any, layout: Layout) -> int:
+    """Columns of the border with which all elements are coupled, those that touch no pocket too."""
+    return layout.places.cage_b if model.outer_ring.free.any() else layout.places.inner_b + RING
+
+
 def _evaluation(bearing: Any, law: Any) -> Any:
     """numba's signature of ``Motion.evaluate``, of ``Motion.separate``, and of what puts
     constraints into them."""
@@ -193,7 +199,9 @@ class Bearing:
         held, rows = constraints_of(constraints, model, layout)
         self.data = BearingData(
             model, new_memory(work.report), work,
-            new_bordered(layout.elements, layout.n_border, 8, work.tangent.active),
+            new_bordered(
+                layout.elements, layout.n_border, _low(model, layout), work.tangent.active
+            ),
             Events(
                 np.zeros((200_000, 4)), np.zeros(1, np.int64),
                 np.zeros_like(work.report.contact), np.zeros(LANDS, np.int64), np.zeros((2, 3)),
@@ -203,6 +211,7 @@ class Bearing:
             new_between(block, interval, layout.modes, work.report),
             new_rates_work(model.cage.mff),
             held,
+            layout.places,
         )  # fmt: skip
         bearing = numba.typeof(parts(motion.parts, self.data))
         holding = _evaluation(bearing, ALL_ROWS_TYPE)
@@ -252,8 +261,9 @@ class Bearing:
 
     def pieces(self) -> list[Callable[[], object]]:
         """What a run by the explicit method needs compiled, one call each, the longest first."""
-        groups = (self.data.work.tangent, self.data.matrix, self.data.model.bodies)
-        tangent, matrix, bodies = (FieldsType(numba.typeof(group)) for group in groups)
+        data = self.data
+        groups = (data.work.tangent, data.matrix, data.model.bodies, data.places)
+        tangent, matrix, bodies, at = (FieldsType(numba.typeof(group)) for group in groups)
         method, none = runge_kutta.EXPLICIT_METHOD, np.zeros(1)
         state = method.new_state(
             0.0, none, none, weight=none, h0=1.0, quad_weight=none, modes=self.modes
@@ -270,8 +280,8 @@ class Bearing:
             ),
             lambda: self.evaluate,
             lambda: self._advance_of(method, state, runge_kutta.Options(1.0, 0.0, 1)),
-            lambda: kernel_for(newton.newton_step, _REAL, _VECTOR, _VECTOR, tangent, matrix),
-            lambda: kernel_for(newton.assemble, _REAL, bodies, tangent, matrix),
+            lambda: kernel_for(newton.newton_step, _REAL, _VECTOR, _VECTOR, at, tangent, matrix),
+            lambda: kernel_for(newton.assemble, _REAL, bodies, at, tangent, matrix),
             *(partial(self.function, name) for name in method.functions),
             lambda: self._radius_of(state),
         ]

@@ -18,7 +18,7 @@ import numpy as np
 from flexcage.bodies.floating_frame import BodyData, modal_product
 from flexcage.contacts.evaluation import ACCEPT, REPORT, RESIDUAL
 from flexcage.contacts.state import Q_SKEW, Q_TILT, U_SKEW, U_SPIN, U_TILT
-from flexcage.core.jit import VECTORISED, fields, kernel, part, zero
+from flexcage.core.jit import VECTORISED, array_from, fields, kernel, part, zero
 from flexcage.core.vectors import RIGID, TURN
 from flexcage.solve.bordered import lu_factor, lu_solve
 from flexcage.solve.oscillators import Oscillators, no_oscillators
@@ -26,29 +26,20 @@ from flexcage.system.constraints import BORNE, PROJECT
 from flexcage.system.data import (
     AXIAL,
     CONSTRAINT_EQUATIONS,
-    FIXED,
-    FREE_AXIAL,
-    FREE_CENTRE,
-    FREE_SKEW,
-    FREE_TILT,
     HOLD,
     MASS,
     OF_SPEED,
     TRANSVERSE,
 )
-from flexcage.system.equations import shaft_pull, speed_at
+from flexcage.system.equations import speed_at
 from flexcage.system.layout import (
     AXIAL_FORCE,
-    CAGE,
     DRIVE_TORQUE,
     HELD_VELOCITIES,
-    N_LAMBDA,
-    OUTER,
-    Q_OUTER,
     Layout,
     of_element,
-    places,
 )
+from flexcage.system.ring import ring_springs
 from flexcage.system.sampling import give_powers, is_main, keep_force, keep_report
 from flexcage.system.time_functions import table_slope, wave_slope
 
@@ -106,75 +97,79 @@ def sample(sample, t, y, yd, data):
 @part
 def _rates(t, y, yd, data, mode):
     d = data[0]
-    bodies, out, frame = fields(d.bodies), fields(d.scratch).out, fields(d.frame)
-    Z, nm = bodies.radius.shape[0], fields(d.rates).given.shape[0]
-    at = places(Z, nm)
-    end, ring, q = at.lam, at.rest_u, y[at.rest_q :]
-    driven = bodies.by_shaft == 0
-    _hold(t, q[:Q_OUTER], y[ring : ring + OUTER], bodies, driven)
-    forces = at.held + 2 * fields(d.tangent).held.shape[0]
-    zero(y[end:forces])
-    law = data[1]
+    bodies, out, frame, at = (
+        fields(d.bodies),
+        fields(d.scratch).out,
+        fields(d.frame),
+        fields(d.places),
+    )
+    inner, end, law = fields(d.inner_ring), at.lam, data[1]
+    ring_q, ring_u, lam = array_from(y, at.inner_q), array_from(y, at.inner_u), array_from(y, end)
+    _hold(t, ring_q, ring_u, inner, bodies)
+    zero(y[end : at.loads])
     law[HOLD](t, y, yd, d, law[CONSTRAINT_EQUATIONS], out, PROJECT)
-    shaft_pull(bodies, q[:Q_OUTER], y[ring : ring + OUTER], y[end : end + DRIVE_TORQUE])
+    ring_springs(inner, ring_q, ring_u, lam)
     zero(yd)
     data[2](t, y, yd, d, data[1], out, mode)
     for k in range(end):
         yd[k] = -out[k]
-    for k in range(forces, y.shape[0]):  # of rings that bend
+    for k in range(at.loads, y.shape[0]):  # of rings that bend
         yd[k] = -out[k]
     linear, axial, transverse = (
         1.0 / bodies.element[MASS],
         1.0 / bodies.element[AXIAL],
         1.0 / bodies.element[TRANSVERSE],
     )
-    for i in range(Z):
+    for i in range(at.elements):
         a = yd[at.u :][of_element(i)]
         for c in range(3):
             a[c] *= linear
         a[U_SPIN] *= axial
         a[U_SKEW] *= transverse
         a[U_TILT] *= transverse
-    a, row, lam = yd[ring : ring + CAGE], out[ring : ring + OUTER], y[end : end + N_LAMBDA]
+    a, row = array_from(yd, at.inner_u), array_from(out, at.inner_u)
+    _by_inertia(inner, a)
     for k in range(3):
-        a[k] /= bodies.ring[MASS]
-    a[U_SKEW] /= bodies.ring[TRANSVERSE]
-    a[U_TILT] /= bodies.ring[TRANSVERSE]
-    for k in range(3):
-        if bodies.free[k] == 0:
-            c = HELD_VELOCITIES[k]
+        c = HELD_VELOCITIES[k]
+        if inner.free[c] == 0:
             a[c], lam[k] = 0.0, row[c]
-    if bodies.free[FREE_CENTRE] == 0:
-        if bodies.free[FREE_AXIAL] != 0:
+    if inner.stands != 0:
+        if inner.free[0] != 0:
             lam[AXIAL_FORCE] += row[0]
         a[0] = a[1] = a[2] = 0.0
-    if driven:
+    if inner.free[U_SPIN] == 0:
         a[U_SPIN] = table_slope(bodies.speed, t) + wave_slope(bodies.waves[OF_SPEED], t)
-        lam[DRIVE_TORQUE] = row[U_SPIN] + bodies.ring[AXIAL] * a[U_SPIN]
-    else:
-        a[U_SPIN] /= bodies.ring[AXIAL]
-    if bodies.support != FIXED:  # a fixed ring has no acceleration
-        a[OUTER] /= bodies.outer[MASS]
-        a[OUTER + 1] /= bodies.outer[MASS]
+        lam[DRIVE_TORQUE] = row[U_SPIN] + inner.inertia[AXIAL] * a[U_SPIN]
+    _by_inertia(fields(d.outer_ring), array_from(yd, at.outer_u))  # what is held has none
     cage_accelerations(
         frame.rigid, frame.coupled, fields(d.cage).plain, fields(d.scratch).A,
-        yd[ring + CAGE : end], fields(d.rates),
+        yd[at.cage_u : at.cage_u + RIGID + at.modes], fields(d.rates),
     )  # fmt: skip
     law[HOLD](t, y, yd, d, law[CONSTRAINT_EQUATIONS], out, BORNE)
 
 
 @part
-def _hold(t, q, u, bodies, driven):
+def _by_inertia(ring, a):
+    """Accelerations of a ring in place of the forces a on it."""
+    for k in range(3):
+        a[k] /= ring.inertia[MASS]
+    a[U_SPIN] /= ring.inertia[AXIAL]
+    a[U_SKEW] /= ring.inertia[TRANSVERSE]
+    a[U_TILT] /= ring.inertia[TRANSVERSE]
+
+
+@part
+def _hold(t, q, u, ring, bodies):
     """Give the inner ring's held coordinates and velocities their values."""
-    if bodies.free[FREE_AXIAL] == 0:
-        q[0] = u[0] = 0.0
-    if bodies.free[FREE_SKEW] == 0:
-        q[Q_SKEW] = u[U_SKEW] = 0.0
-    if bodies.free[FREE_TILT] == 0:
-        q[Q_TILT], u[U_TILT] = bodies.misalignment, 0.0
-    if bodies.free[FREE_CENTRE] == 0:  # wherever it stands
+    if ring.free[0] == 0:
+        q[0], u[0] = ring.rest[0], 0.0
+    if ring.free[U_SKEW] == 0:
+        q[Q_SKEW], u[U_SKEW] = ring.rest[U_SKEW], 0.0
+    if ring.free[U_TILT] == 0:
+        q[Q_TILT], u[U_TILT] = ring.rest[U_TILT], 0.0
+    if ring.stands != 0:
         u[0] = u[1] = u[2] = 0.0
-    if driven:
+    if ring.free[U_SPIN] == 0:
         u[U_SPIN] = speed_at(bodies, t)
 
 

@@ -15,7 +15,6 @@ from typing import NamedTuple
 
 from flexcage.core.jit import outlined, part
 from flexcage.core.vectors import RIGID, TURN, cross, dot, minus, plus, times, turn_of, xyz
-from flexcage.system.layout import MODES
 
 
 class Relative(NamedTuple):
@@ -35,7 +34,8 @@ class Against(NamedTuple):
     start: int  # the first
     velocities: int  # so many: translation in space, and rotation
     round: int  # 1: looks the same however it has turned about its first axis
-    own_axes: int  # 1: moments are in axes that turn with it, and modes follow
+    own_axes: int  # 1: moments are in axes that turn with it
+    modes: int  # where its modes begin
 
 
 @outlined
@@ -50,7 +50,7 @@ def add_slopes(i, by, body, moves, K, C, wrench, column, tan):
     _columns_of_element(i, by, body, moves, K, C, wrench, column, tan)
     _columns_of_body(i, by, body, moves, K, C, wrench, column, tan)
     for m in range(RIGID, K.shape[0]):
-        b = MODES + m - RIGID
+        b = body.modes + m - RIGID
         for k in range(K.shape[0]):
             column[k] = K[k, m]
         _add_to_border(column, b, by, body, moves, (0.0, 0.0, 0.0), tan.Krb[i], tan.Kbb)
@@ -140,4 +140,4 @@ def _add_to_body(column, b, by, body, moves, swing, M):
         row = moves[a]
         M[body.start + a, b] += dot(turn_of(row), moment) - dot(xyz(row), f)
     for k in range(RIGID, column.shape[0]):
-        M[MODES + k - RIGID, b] += column[k]
+        M[body.modes + k - RIGID, b] += column[k]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from flexcage.contacts.evaluation import OUTER_RING, REPORT
 from flexcage.core.jit import copy_into, fields, part
+from flexcage.core.vectors import RIGID, TURN
 from flexcage.system.data import (
     CONSTRAINTS,
     DRIVE,
@@ -16,7 +17,7 @@ from flexcage.system.data import (
     POCKET,
 )
 from flexcage.system.equations import load_power
-from flexcage.system.layout import DRIVE_TORQUE, INNER_TURN, MODES, PER_ELEMENT, Q_MODES, places
+from flexcage.system.layout import DRIVE_TORQUE, FRAME
 
 
 @part
@@ -28,15 +29,12 @@ def give_powers(t, y, d, power):
     report = fields(d.report)
     for k in range(power.shape[0]):
         power[k] = report.power[k]
-    Z, nm = fields(d.bodies).radius.shape[0], fields(d.pocket).phi_max.shape[0]
-    at = places(Z, nm)
-    u = at.rest_u
-    power[DRIVE] += y[at.lam + DRIVE_TORQUE] * y[u + INNER_TURN]
-    power[LOAD] += load_power(t, fields(d.bodies), y, at.rest_q, u, fields(d.scratch).vec)
-    c = fields(d.constraints)
+    at, c = fields(d.places), fields(d.constraints)
+    power[DRIVE] += y[at.lam + DRIVE_TORQUE] * y[at.inner_u + TURN]
+    power[LOAD] += load_power(t, y, d)
     for k in range(c.level.shape[0]):  # those that move bodies
-        for j in range(MODES):
-            power[CONSTRAINTS] += y[at.held + k] * c.G[k, j] * y[u + j]
+        for j in range(at.border):
+            power[CONSTRAINTS] += y[at.held + k] * c.G[k, j] * y[at.bodies_u + j]
 
 
 def powers(t, y, data, power):
@@ -55,11 +53,12 @@ def settle(t, y, data):
     whose acceleration is a result, is evaluated at y.
     """
     d = data[0]
-    force, races = fields(d.report).body_force, fields(d.report).outer_races
-    before = races[0], races[1]
+    force, races = fields(d.report).outer_wrench, fields(d.report).outer_races
+    for c in range(RIGID):
+        force[c] -= races[c]
     data[2](t, y, y, d, data[1], fields(d.scratch).out, OUTER_RING)
-    for c in range(2):
-        force[c] += races[c] - before[c]
+    for c in range(RIGID):
+        force[c] += races[c]
     keep_point(t, y, d)
 
 
@@ -81,7 +80,7 @@ def keep_point(t, y, d):
     copy_into(events.pocket_force_before, events.pocket_force)
     copy_into(events.pocket_force, report.pocket_normal)
     events.force[1, 0] = t
-    events.force[1, 1], events.force[1, 2] = report.body_force[0], report.body_force[1]
+    events.force[1, 1], events.force[1, 2] = report.outer_wrench[1], report.outer_wrench[2]
 
 
 @part
@@ -108,7 +107,7 @@ def keep_loads(t, y, d):
         clock[1] = t + spacing[1]
     if t > clock[1]:
         return
-    first = PER_ELEMENT * rep.station.shape[0] + Q_MODES
+    first = fields(d.places).cage_q + FRAME
     for m in range(between.modes.shape[1]):
         between.modes[n, m] = y[first + m]
     copy_into(between.land[n], rep.land_station)

@@ -26,10 +26,10 @@ def shared_weights(model: Any, layout: Layout, length: float) -> np.ndarray:
     q, u, speed = layout.q(allowed), layout.u(allowed), length * ERROR_RATE
     q["elements"][:, :2] = length
     q["elements"][:, 2] = length / pitch
-    q["inner"][1:3] = q["outer"][:] = q["cage"][:] = length
+    q["inner"][1:3] = q["outer"][1:3] = q["cage"][:] = length
     q["quaternion"][:] = 0.5 * length / pitch
     u["elements"][:, :3] = speed
-    u["inner"][1:3] = u["outer"][:] = u["cage"][:] = speed
+    u["inner"][1:3] = u["outer"][1:3] = u["cage"][:] = speed
     u["omega"][:] = speed / pitch
     if layout.modes:
         largest = np.maximum(model.pocket.phi_max, 1e-3 * model.pocket.phi_max.max())

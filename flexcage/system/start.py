@@ -11,7 +11,7 @@ from flexcage.contacts.evaluation import REPORT
 from flexcage.contacts.land import DRY, FILM, NONE, LandData
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.system.constraints import POSITION, check_independent
-from flexcage.system.layout import MODES, PER_ELEMENT, Q_MODES, Layout
+from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
 from flexcage.system.scales import ERROR_RATE
 from flexcage.system.spec import Constraint, StartOptions
@@ -75,8 +75,8 @@ def constrained(
     if not constraints:
         return start
     layout, data = bearing.layout, bearing.data.constraints
-    z, y, yd = PER_ELEMENT * layout.elements, start.y.copy(), np.zeros_like(start.yd)
-    check_independent(constraints, data, y[z : z + Q_MODES], y[layout.n_q + z :][:MODES])
+    y, yd = start.y.copy(), np.zeros_like(start.yd)
+    check_independent(constraints, data, layout, y)
     rates = bearing.function("rates")
     for _ in range(_ONTO):  # each moves y one step of Newton's nearer
         rates(0.0, y, yd, bearing.args, np.zeros(0))
@@ -108,7 +108,7 @@ def made_room(land: LandData, layout: Layout, y: np.ndarray) -> bool:
     q = layout.q(y)
     if land.kind == NONE:
         return False
-    ring = q["inner"][1:3] if land.inner else q["outer"]
+    ring = q["inner" if land.inner else "outer"][1:3]
     apart = q["cage"][1:3] - ring
     share = _CLEAR[land.kind] * land.clearance / max(float(np.linalg.norm(apart)), 1e-12)
     if share >= 1.0:

@@ -40,10 +40,9 @@ from flexcage.system.bending import (
     force_at,
     look_up,
     orbit_of,
-    ring_forces_at,
 )
 from flexcage.system.data import KINETIC, MODAL_DAMPING, OUTER_RACE, STRAIN
-from flexcage.system.layout import PER_ELEMENT, RING_FORCES
+from flexcage.system.layout import PER_ELEMENT
 from flexcage.system.ring_walls import set_sections
 from flexcage.system.supports import press_supports, solve_pressed
 
@@ -97,8 +96,7 @@ class SwingsAt(NamedTuple):
 @part
 def swings_at(d):
     """Places of coordinates and velocities in y, behind the forces that rings bear."""
-    M = fields(d.swings).shape.shape[0]
-    a = ring_forces_at(d) + RING_FORCES * fields(d.rings).moment.shape[1]
+    M, a = fields(d.swings).shape.shape[0], fields(d.places).swings
     return SwingsAt(a, a + M, a + 2 * M)
 
 
@@ -110,7 +108,7 @@ def swing(q, u, y, d):
         if swings.carried.shape[0] > 0:  # it stands, but displaced
             _set_waves(q, swings)
         return
-    at, bent = swings_at(d), ring_forces_at(d)
+    at, bent = swings_at(d), fields(d.places).loads
     _swing(q, y[bent : at.a], y[at.a : at.v], y[at.v : at.end], fields(d.rings), swings)
     zero(swings.total)
     zero(swings.load)
@@ -241,7 +239,7 @@ def swing_report(q, u, y, d):
     swings, rings, rep = fields(d.swings), fields(d.rings), fields(d.report)
     if swings.push.shape[0] == 0:
         return
-    at, s = swings_at(d), y[ring_forces_at(d) :]
+    at, s = swings_at(d), y[fields(d.places).loads :]
     a, v = y[at.a : at.v], y[at.v : at.end]
     for m in range(a.shape[0]):
         rep.energy[KINETIC] += 0.5 * v[m] * v[m]

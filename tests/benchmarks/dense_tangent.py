@@ -74,23 +74,23 @@ def kinematics(bearing: Bearing, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     Z = layout.elements
     rate = np.zeros((layout.n_q, layout.n_u))
     back = np.zeros((layout.n_u, layout.n_q))
-    for body in range(Z + 1):
+    for body in range(Z + 2):  # elements, then both rings
         order = np.array([0, 1, 2, *(turns if body < Z else _OF_RING)])
         coordinates, velocities = 6 * body + order, 6 * body + np.arange(6)
         scale = np.ones(6)
         scale[2] = y[6 * body + 1] if body < Z else 1.0
         rate[coordinates, velocities] = 1.0 / scale
         back[velocities, coordinates] = scale
-    z = 6 * (Z + 1)
-    for c in range(5):  # outer ring, and the cage's place
+    z = 6 * (Z + 2)  # of the cage
+    for c in range(3):
         rate[z + c, z + c] = back[z + c, z + c] = 1.0
-    quaternion = y[z + 5 : z + 9].copy()
+    quaternion = y[z + 3 : z + 7].copy()
     for c in range(3):
         quaternion_rate(quaternion, np.eye(3)[c], column := np.zeros(4))
-        rate[z + 5 : z + 9, z + 5 + c] = column
+        rate[z + 3 : z + 7, z + 3 + c] = column
     for c in range(4):
         rotation_of_quaternion_change(quaternion, np.eye(4)[c], turned := np.zeros(3))
-        back[z + 5 : z + 8, z + 5 + c] = turned
+        back[z + 3 : z + 6, z + 3 + c] = turned
     modes = np.arange(layout.modes)
-    rate[z + 9 + modes, z + 8 + modes] = back[z + 8 + modes, z + 9 + modes] = 1.0
+    rate[z + 7 + modes, z + 6 + modes] = back[z + 6 + modes, z + 7 + modes] = 1.0
     return rate, back

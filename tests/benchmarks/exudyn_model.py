@@ -70,7 +70,10 @@ class ExudynBearing:
         self.start, speed = coordinates(planar, y)
         b, cage = model.bodies, model.cage
         inertias = [tuple(b.element[:2])] * len(b.radius)
-        inertias += [(b.ring[0], HEAVY), (cage.mass, cage.G0[1, 1] + cage.G0[2, 2])]
+        inertias += [
+            (model.inner_ring.inertia[0], HEAVY),
+            (cage.mass, cage.G0[1, 1] + cage.G0[2, 2]),
+        ]
         forces = np.outer([mass for mass, _ in inertias], b.gravity[1:])
         forces[-2] += b.load[1, 0] * b.load_direction
         bodies = list(map(self._body, inertias[:-1], self.start, speed))

@@ -16,7 +16,7 @@ from flexcage.core.hashing import content_hash
 from flexcage.core.sources import kernel_sources, source_hash
 from flexcage.modes.reduction import CageReduction
 from flexcage.stages import cage_mesh, cage_reduction
-from flexcage.system.layout import Layout
+from flexcage.system.layout import Layout, bodies_of_bearing
 
 #: Proportional to sliding up to 0.5 m/s, Coulomb's beyond.
 FRICTION = {
@@ -83,7 +83,7 @@ class Planar(Settled):
 
     def _undeformed(self, state: np.ndarray) -> dict[str, np.ndarray]:
         """As ``Settled.stored``: coordinates and velocities of the rigid model's y."""
-        own, rigid = self.bearing.layout, Layout(self.bearing.layout.elements, 0)
+        own, rigid = self.bearing.layout, Layout(self.bearing.layout.elements, bodies_of_bearing(0))
         y = np.zeros(own.size)
         for views, given in ((own.q(y), rigid.q(state)), (own.u(y), rigid.u(state))):
             for name in given:

@@ -19,7 +19,6 @@ from flexcage.results.registry import Variable
 from flexcage.solve.contract import DONE, LOG_FULL, RESIDUALS, STEPS, T
 from flexcage.solve.runge_kutta import EXPLICIT_METHOD
 from flexcage.spec import Constraint, FrictionLaw, Material, ModesSpec, NormalLaw
-from flexcage.system.layout import CAGE, Q_CAGE
 
 # ------------------------------------------------------------------- a normal law with own values
 
@@ -62,11 +61,12 @@ class Rail(Constraint):
     azimuth: float = quantity("deg", 0.0, doc="azimuth of the line")
 
 
-def rail(t, q, u, p, G, g, h):
+def rail(t, y, at, p, G, g, h):
     """g: distance from the line; G: slopes of its rate h in the velocities of the cage's centre."""
-    G[0, CAGE + 1], G[0, CAGE + 2] = -p[0], p[1]
-    g[0] = G[0, CAGE + 1] * q[Q_CAGE + 1] + G[0, CAGE + 2] * q[Q_CAGE + 2]
-    h[0] = G[0, CAGE + 1] * u[CAGE + 1] + G[0, CAGE + 2] * u[CAGE + 2]
+    q, u, b = at.cage_q + 1, at.cage_u + 1, at.cage_b + 1  # of the centre's y, then z
+    G[0, b], G[0, b + 1] = -p[0], p[1]
+    g[0] = p[1] * y[q + 1] - p[0] * y[q]
+    h[0] = p[1] * y[u + 1] - p[0] * y[u]
 
 
 register.constraint(

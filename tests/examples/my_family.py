@@ -19,8 +19,8 @@ from flexcage.core.jit import fields, part
 from flexcage.core.spec import option, quantity
 from flexcage.geometry.bearing import BEARING_TYPES
 from flexcage.register import bearing_family
-from flexcage.system.data import GRAVITY, Bodies
-from flexcage.system.layout import PER_ELEMENT, places
+from flexcage.system.data import GRAVITY, Bodies, RingBody
+from flexcage.system.layout import PER_ELEMENT
 from flexcage.system.motion import Motion, parts_type
 
 MOTION_OF_BALLS = BALLS.motion()
@@ -42,6 +42,8 @@ class Magnet(NamedTuple):
 
 class MagnetModel(NamedTuple):
     bodies: Bodies
+    inner_ring: RingBody
+    outer_ring: RingBody
     cage: BodyData
     inner: Groove
     outer: Groove
@@ -68,10 +70,9 @@ _balls = part(FunctionType(MOTION_OF_BALLS.evaluate.__code__, MOTION_OF_BALLS.ev
 def evaluate(t, y, yd, d, law, out, mode):
     """The balls' rows, and the pull in that of each along its radius; its power is gravity's."""
     _balls(t, y, yd, d, law, out, mode)
-    Z = fields(d.bodies).radius.shape[0]
-    at = places(Z, fields(d.pocket).phi_max.shape[0]).u
-    for i in range(Z):
-        radial = at + PER_ELEMENT * i + 1
+    at = fields(d.places)
+    for i in range(at.elements):
+        radial = at.u + PER_ELEMENT * i + 1
         out[radial] -= fields(d.magnet).pull
         if mode >= REPORT:
             fields(d.report).power[GRAVITY] += fields(d.magnet).pull * y[radial]

@@ -130,12 +130,13 @@ def kinds():
         table.update(before)
 
 
-def circle(t, q, u, p, G, g, h):
+def circle(t, y, at, p, G, g, h):
     """(y - p1)^2 + z^2 = p0, of the cage's centre: no slope in the middle."""
-    y, z = q[9] - p[1], q[10]
-    g[0] = y * y + z * z - p[0]
-    G[0, 9], G[0, 10] = 2.0 * y, 2.0 * z
-    h[0] = G[0, 9] * u[9] + G[0, 10] * u[10]
+    q, u, b = at.cage_q + 1, at.cage_u + 1, at.cage_b + 1
+    right, up = y[q] - p[1], y[q + 1]
+    g[0] = right * right + up * up - p[0]
+    G[0, b], G[0, b + 1] = 2.0 * right, 2.0 * up
+    h[0] = G[0, b] * y[u] + G[0, b + 1] * y[u + 1]
 
 
 def test_a_constraint_that_cannot_be_met(kinds):

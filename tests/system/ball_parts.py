@@ -13,7 +13,7 @@ from flexcage.bodies.floating_frame import flexible_body
 from flexcage.cages.machined.interface import BallCageInterface, wall_stations
 from flexcage.case.presets import load_preset
 from flexcage.contacts.spec import Contacts, FrictionLaw, Lubricant, NormalLaw, PairSpec
-from flexcage.system.layout import Layout
+from flexcage.system.layout import Layout, bodies_of_bearing
 from flexcage.system.problem import Bearing
 from flexcage.system.spec import Drive, Load, Mount
 
@@ -82,7 +82,8 @@ def ball_bearing(
         drive=Drive(speed=speed), load=load or Load(gravity=0.0, tilt="free"),
         mount=mount or Mount(),
     )  # fmt: skip
-    return Bearing(MOTION, spec, model, contacts, Layout(preset.bearing.ball_count, body.modes))
+    layout = Layout(preset.bearing.ball_count, bodies_of_bearing(body.modes))
+    return Bearing(MOTION, spec, model, contacts, layout)
 
 
 def pressed(bearing, *, seed=0, push=0.28e-3):

@@ -14,7 +14,7 @@ from flexcage.solve import bdf, runge_kutta
 from flexcage.solve.integrators import INTEGRATORS
 from flexcage.system.constraints import names_of
 from flexcage.system.data import POWERS
-from flexcage.system.layout import CAGE, INNER, OUTER, Layout
+from flexcage.system.layout import Layout, bodies_of_bearing
 from flexcage.system.problem import Bearing, new_samples
 from flexcage.system.scales import work_weights
 from flexcage.system.spec import Drive, Load, Mount
@@ -28,19 +28,22 @@ NUP = {**NU, "design": "NUP", "counter_rib_diameter": 78.4e-3, "counter_rib_gap"
 BETWEEN_RIBS = Load(radial=1000.0, axial=440.0)
 
 
-def unbalanced(work, elements):
+def unbalanced(bearing, elements):
     """Sum (2,) [N] of the forces on all bodies across the axis after a residual, over that of their
     sizes, with elements at places (Z, ...) r, x, azimuth."""
+    work = bearing.data.work.scratch
     cos, sin = np.cos(elements[:, 2]), np.sin(elements[:, 2])
     along = work.wrenches[:, 1] * cos - work.wrenches[:, 2] * sin
     across = work.wrenches[:, 1] * sin + work.wrenches[:, 2] * cos
-    bodies = sum(work.border[k + 1 : k + 3] for k in (INNER, CAGE)) + work.border[OUTER:][:2]
+    pushed = bearing.layout.border(work.border)
+    bodies = sum(pushed[name][1:3] for name in ("inner", "outer", "cage"))
     return (bodies + [along.sum(), across.sum()]) / np.abs(work.wrenches[:, :3]).sum()
 
 
 def assembled(model, contacts, constraints=()) -> Bearing:
     held = names_of(constraints)
-    layout = Layout(len(model.bodies.radius), model.cage.mff.shape[0], held)
+    bodies = bodies_of_bearing(model.cage.mff.shape[0])
+    layout = Layout(len(model.bodies.radius), bodies, held)
     return Bearing(MOTION, N1013, model, contacts, layout, constraints=constraints)
 
 

@@ -257,7 +257,6 @@ def test_all_forces_balance():
         contacts=contacts_of("restitution", "step_coulomb"), lubricant=Lubricant(oil_fraction=0.0)
     )
     layout, y = bearing.layout, pressed(bearing, seed=3)
-    layout.q(y)["elements"][:, 1] -= 15e-6
     rng = np.random.default_rng(1)
     u = layout.u(y)
     u["elements"][:] = rng.standard_normal((layout.elements, 6)) * (0.1, 0.1, 0.1, 50, 50, 50)
@@ -267,7 +266,7 @@ def test_all_forces_balance():
     bearing.residual(0.0, y, yd, mode=2)
     work = bearing.data.work
     q = layout.q(y)
-    border, report = work.scratch.border, work.report
+    pushed, report = layout.border(work.scratch.border.copy()), work.report
     psi, r = q["elements"][:, 2], q["elements"][:, 1]
     # what acts on each ball, from its rows without inertia
     rows = layout.u(-bearing.residual(0.0, y, yd))["elements"].copy()
@@ -287,12 +286,13 @@ def test_all_forces_balance():
 
     forces, couples = space(rows[:, :3]), space(rows[:, 3:])
     at = q["elements"][:, :1] * ex + r[:, None] * er
-    total = forces.sum(axis=0) + border[:3] + border[8:11]
+    rings = "inner", "outer"
+    total = forces.sum(axis=0) + pushed["cage"] + sum(pushed[name][:3] for name in rings)
     assert np.abs(total).max() < 1e-10 * np.abs(forces).sum()
     A = work.scratch.A
     moment = (np.cross(at, forces) + couples).sum(axis=0)
-    moment = moment + np.cross(q["inner"][:3], border[:3]) + border[3:6]
-    moment = moment + np.cross(q["cage"], border[8:11]) + A @ border[11:14]
+    for name in rings:
+        moment = moment + np.cross(q[name][:3], pushed[name][:3]) + pushed[name][3:]
+    moment = moment + np.cross(q["cage"], pushed["cage"]) + A @ pushed["omega"]
     assert np.abs(moment).max() < 1e-9 * np.abs(np.cross(at, forces)).sum()
-    assert (report.pocket_friction > 0.0).any() and (report.race[:, 0, 0] > 0.0).all()
-    assert not (report.race[:, 1, 0] > 0.0).any()
+    assert (report.pocket_friction > 0.0).any() and (report.race[:, :, 0] > 0.0).all()

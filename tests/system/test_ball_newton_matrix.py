@@ -55,7 +55,8 @@ def disturbed(bearing, *, slide=0.05, axial=0.0, seed=1):
     u["cage"][:] = 0.02 * rng.standard_normal(3)
     u["omega"][:] = np.array([orbit, 0.0, 0.0]) + rng.standard_normal(3)
     u["modes"][:] = 5e-3 * rng.standard_normal(layout.modes)
-    q["inner"][4] = model.bodies.misalignment if not model.bodies.free[2] else q["inner"][4]
+    ring = model.inner_ring
+    q["inner"][4] = q["inner"][4] if ring.free[5] else ring.rest[5]
     yd = np.zeros_like(y)
     bearing.function("residual")(0.0, y, yd, bearing.args, np.zeros(len(y)), np.zeros(len(POWERS)))
     bearing.function("note")(0.0, y, bearing.args)

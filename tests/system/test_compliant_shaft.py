@@ -35,7 +35,7 @@ def test_a_ring_that_touches_nothing_swings_as_a_mass_on_a_spring(bearing_of, me
         tilt="free", tilt_stiffness=1e4, tilt_damping=0.3, moment_y=0.1, moment_z=-0.2,
     )  # fmt: skip
     bearing = bearing_of(load=load, drive=STILL)
-    layout, ring = bearing.layout, bearing.data.model.bodies.ring
+    layout, ring = bearing.layout, bearing.data.model.inner_ring.inertia
     y, yd = rolling_start(bearing)
     layout.q(y)["inner"][:3] = 0.0
     h = march(bearing, y, yd, duration=1e-3, rate=200e3, tolerance=1e-12, h_max=4e-7, method=method)
@@ -144,5 +144,6 @@ def test_balls_share_an_axial_load_with_the_shaft():
 def test_without_springs_nothing_else_is_in_the_rows(bearing_of):
     """Springs of motions that are held take no part."""
     bearing = bearing_of(load=replace(SOFT, axial=0.0, axial_stiffness=0.0, tilt="held"))
-    assert not bearing.data.model.bodies.spring.any()
-    assert not bearing.data.model.bodies.free[:3].any()
+    ring = bearing.data.model.inner_ring
+    assert not ring.stiffness.any() and not ring.damping.any()
+    assert not ring.free[[0, 4, 5]].any()

@@ -28,12 +28,12 @@ class Rod(Constraint):
     length: float = quantity("um", 40e-6, doc="length", above=0.0)
 
 
-def rod(t, q, u, p, G, g, h):
-    y, z = q[9], q[10]
-    distance = (y * y + z * z) ** 0.5
+def rod(t, y, at, p, G, g, h):
+    q, u, b = at.cage_q + 1, at.cage_u + 1, at.cage_b + 1
+    distance = (y[q] * y[q] + y[q + 1] * y[q + 1]) ** 0.5
     g[0] = distance - p[0]
-    G[0, 9], G[0, 10] = y / distance, z / distance
-    h[0] = G[0, 9] * u[9] + G[0, 10] * u[10]
+    G[0, b], G[0, b + 1] = y[q] / distance, y[q + 1] / distance
+    h[0] = G[0, b] * y[u] + G[0, b + 1] * y[u + 1]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,15 +44,17 @@ class Governor(Constraint):
     gain: float = quantity("s/m^2", 3e3, doc="gain")
 
 
-def governor(t, q, u, p, G, g, h):
-    h[0] = u[11] - 270.0 - 50.0 * t - p[0] * u[1] ** 2
-    G[0, 11], G[0, 1] = 1.0, -2.0 * p[0] * u[1]
+def governor(t, y, at, p, G, g, h):
+    sideways = y[at.inner_u + 1]
+    h[0] = y[at.cage_u + 3] - 270.0 - 50.0 * t - p[0] * sideways**2
+    G[0, at.cage_b + 3], G[0, at.inner_b + 1] = 1.0, -2.0 * p[0] * sideways
 
 
-def spacer(t, q, u, p, G, g, h):
+def spacer(t, y, at, p, G, g, h):
     """Both rings' centres keep 12 um between them along y."""
-    g[0], h[0] = q[1] - q[6] - 12e-6, u[1] - u[6]
-    G[0, 1], G[0, 6] = 1.0, -1.0
+    g[0] = y[at.inner_q + 1] - y[at.outer_q + 1] - 12e-6
+    h[0] = y[at.inner_u + 1] - y[at.outer_u + 1]
+    G[0, at.inner_b + 1], G[0, at.outer_b + 1] = 1.0, -1.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,10 +97,9 @@ def brought(bearing, y):
 
 def missed(bearing, t, y):
     """g and h of all constraints."""
-    held, z, layout = bearing.data.constraints, 6 * bearing.layout.elements, bearing.layout
+    held = bearing.data.constraints
     G, g, h = np.zeros_like(held.G), np.zeros_like(held.g), np.zeros_like(held.h)
-    q, u = y[z : z + 15], y[layout.n_q + z : layout.n_q + z + 14]
-    bearing.laws[-2](t, q, u, held.p, G, g, h)
+    bearing.laws[-2](t, y, bearing.layout.places, held.p, G, g, h)
     return g, h
 
 
@@ -235,7 +236,7 @@ def test_a_ring_on_its_path(bearing_of, method):
     at = speed * h.time + 0.5
     along = np.stack([np.cos(at), np.sin(at)], axis=1)
     np.testing.assert_allclose(bearing.layout.q(h.y)["inner"][:, 1:3], radius * along, atol=1e-11)
-    mass = bearing.data.model.bodies.ring[0]
+    mass = bearing.data.model.inner_ring.inertia[0]
     expected = -mass * radius * speed**2 * along - load * np.array([1.0, 0.0])
     np.testing.assert_allclose(bearing.layout.multipliers(h.y)[10:, 4:], expected[10:], rtol=1e-3)
 
@@ -290,23 +291,24 @@ def test_kinds_that_are_refused(name, options, words):
 
 
 def test_rows_that_cannot_be_compiled():
-    with pytest.raises(InputError, match=r"constraint 'short' cannot be compiled .* \(t, q, u, p"):
+    with pytest.raises(InputError, match=r"constraint 'short' cannot be compiled .* \(t, y, at, p"):
         register_constraint("short", lambda t, q: None, level="position")
     assert "short" not in constraints.KINDS
     with pytest.raises(InputError, match="'lost' cannot be compiled .* name 'no_such_name'"):
         register_constraint("lost", unnamed, level="position")
 
 
-def unnamed(t, q, u, p, G, g, h):
+def unnamed(t, y, at, p, G, g, h):
     g[0] = no_such_name  # noqa: F821
 
 
-def two(t, q, u, p, G, g, h):
-    for k in range(2):
-        g[k], h[k], G[k, 9 + k] = q[9 + k], u[9 + k], 1.0
+def two(t, y, at, p, G, g, h):
+    for k in range(1, 3):
+        g[k - 1], h[k - 1] = y[at.cage_q + k], y[at.cage_u + k]
+        G[k - 1, at.cage_b + k] = 1.0
 
 
-def flat(t, q, u, p, G, g, h):
+def flat(t, y, at, p, G, g, h):
     g[0] = 1.0
 
 
@@ -328,13 +330,13 @@ def test_rows_and_parameters_that_do_not_fit(bearing_of, rows, options, words):
     specs = (constraints.specs.CONSTRAINTS[name](),)
     with pytest.raises(InputError, match=words):
         bearing = bearing_of(load=Load(radial=1000.0), constraints=specs)
-        q, u = np.zeros(15), np.zeros(14)
-        constraints.check_independent(specs, bearing.data.constraints, q, u)
+        y = np.zeros(bearing.layout.size)
+        constraints.check_independent(specs, bearing.data.constraints, bearing.layout, y)
 
 
 def test_a_kind_without_values(bearing_of):
-    def level(t, q, u, p, G, g, h):  # the cage stays where it is along the axis
-        g[0], h[0], G[0, 8] = q[8], u[8], 1.0
+    def level(t, y, at, p, G, g, h):  # the cage stays where it is along the axis
+        g[0], h[0], G[0, at.cage_b] = y[at.cage_q], y[at.cage_u], 1.0
 
     register_constraint("level", level, level="position")
     own = constraints.specs.CONSTRAINTS["level"]()

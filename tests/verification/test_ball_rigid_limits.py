@@ -11,7 +11,7 @@ from flexcage.bodies.cage import flexible_from_basis, rigid_from_tets
 from flexcage.cages.build import rigid_interface_of
 from flexcage.simulate import simulate
 from flexcage.stages import cage_mesh, cage_reduction
-from flexcage.system.layout import Layout
+from flexcage.system.layout import Layout, bodies_of_bearing
 from flexcage.system.problem import Bearing
 from flexcage.verification.c7010 import c7010
 
@@ -76,7 +76,8 @@ def frozen_and_rigid():
 
     def bearing(body, interface):
         model = MOTION.build_model(case.bearing, case.cage, body, interface, **specs)
-        bearing = Bearing(MOTION, case.bearing, model, case.contacts, Layout(18, body.modes))
+        layout = Layout(18, bodies_of_bearing(body.modes))
+        bearing = Bearing(MOTION, case.bearing, model, case.contacts, layout)
         for speeds in bearing.data.memory[:4]:
             speeds[...] = 0.3  # at which contacts closed
         return bearing

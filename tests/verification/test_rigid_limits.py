@@ -21,7 +21,7 @@ from flexcage.bodies.cage import flexible_from_basis, rigid_from_tets
 from flexcage.cages.window.interface import rigid_interface
 from flexcage.compiling import build_bearing
 from flexcage.simulate import simulate
-from flexcage.system.layout import Layout
+from flexcage.system.layout import Layout, bodies_of_bearing
 from flexcage.system.problem import Bearing
 from flexcage.system.start import find_start
 
@@ -120,7 +120,7 @@ def frozen_and_rigid():
         model = MOTION.build_model(case.bearing, case.cage, body, interface, **parts)
         if pocket_law is not None:
             model.pocket.normal[:] = pocket_law
-        layout = Layout(case.bearing.roller_count, body.modes)
+        layout = Layout(case.bearing.roller_count, bodies_of_bearing(body.modes))
         return Bearing(MOTION, case.bearing, model, case.contacts, layout)
 
     interface = replace(cage.interface, compliance=np.zeros_like(cage.interface.compliance))

@@ -266,6 +266,13 @@ class BallBearing(Bearing):
         return self.material.density * area * self.width
 
     @cached_property
+    def outer_ring_inertia(self) -> tuple[float, float]:
+        """Axial and transverse moments of inertia of a hollow cylinder of that mass [kg m^2]."""
+        return hollow_cylinder_inertia(
+            self.outer_ring_mass, self.shoulder_diameters[1], self.outside_diameter, self.width
+        )
+
+    @cached_property
     def inner_groove_centre(self) -> tuple[float, float]:
         """Place (x, r) [m] of the inner groove's centre in its ring, from where ball centres lie.
 

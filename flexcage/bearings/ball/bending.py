@@ -13,12 +13,10 @@ from flexcage.bearings.ball.motion import MOTION
 from flexcage.bearings.ball.residual import (
     BESIDE,
     SHARED,
-    add_wrench,
+    add_to_ring,
     ball_in_pocket,
     ball_rows,
-    on_inner_race,
-    on_outer_race,
-    push_outer,
+    on_race,
     report_race,
     set_bodies,
 )
@@ -34,7 +32,7 @@ from flexcage.contacts.groove import (
 )
 from flexcage.contacts.slices import Laws, elastic_forces
 from flexcage.contacts.state import set_frame
-from flexcage.core.jit import fields, part, zero
+from flexcage.core.jit import array_from, fields, part, zero
 from flexcage.core.vectors import cross, minus, plus
 from flexcage.system.bending import (
     STEPS,
@@ -45,15 +43,14 @@ from flexcage.system.bending import (
     close,
     guess,
     push_by_slopes,
-    ring_forces_at,
     ring_report,
     ring_rows,
     with_ring_weights,
 )
 from flexcage.system.data import FAMILY_PARTS, INNER_RACE, OUTER_RACE
-from flexcage.system.equations import react
-from flexcage.system.layout import CAGE, CAGE_TURN, INNER, Q_CAGE, Q_QUATERNION, of_element, places
+from flexcage.system.layout import of_element
 from flexcage.system.motion import BendingMotion, bending_model, parts_type
+from flexcage.system.ring import inner_of, outer_of
 from flexcage.system.swinging import push_swings, swing, swing_report, swing_rows
 
 BendingBallModel = bending_model("BendingBallModel", BallModel, __name__)
@@ -62,28 +59,25 @@ BendingBallParts = parts_type("BendingBallParts", BendingBallModel, __name__)
 
 def evaluate(t, y, yd, d, law, out, mode):
     """Residual into ``out``, as ``residual.evaluate``."""
-    Z = fields(d.bodies).radius.shape[0]
-    at, rings = places(Z, fields(d.pocket).phi_max.shape[0]), fields(d.rings)
-    bent = ring_forces_at(d)
-    q, u, qd, ud = y[: at.rest_q], y[at.u : at.rest_u], yd[: at.rest_q], yd[at.u : at.rest_u]
-    r_q, r_u = out[: at.rest_q], out[at.u : at.rest_u]
-    rest_q, rest_u, s = y[at.rest_q : at.u], y[at.rest_u : at.lam], y[bent:]
-    modes = set_bodies(rest_q, rest_u, d, mode)
+    at, rings = fields(d.places), fields(d.rings)
+    q, u, qd, ud = y[: at.bodies_q], y[at.u : at.bodies_u], yd[: at.bodies_q], yd[at.u :]
+    r_q, r_u, s = out[: at.bodies_q], out[at.u :], y[at.loads :]
+    modes = set_bodies(y, d, mode)
     law[BESIDE](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
     bend_rings(q, s, rings)
     swing(q, u, y, d)
-    Rc, Vc = rest_q[Q_CAGE:Q_QUATERNION], rest_u[CAGE:CAGE_TURN]
-    for i in range(Z):
+    Rc, Vc = array_from(y, at.cage_q), array_from(y, at.cage_u)
+    for i in range(at.elements):
         own = of_element(i)
         qi, ui = q[own], u[own]
         set_frame(qi[2], fields(d.pose).F)
-        _inner_race(i, qi, ui, rest_q, rest_u, s, d, law, mode)
-        _outer_race(i, qi, ui, rest_q, rest_u, s, d, law, mode)
+        _inner_race(i, qi, ui, inner_of(y, d), s, d, law, mode)
+        _outer_race(i, qi, ui, outer_of(y, d), s, d, law, mode)
         push_swings(i, d)
-        push_by_slopes(i, q, rest_q, d)
+        push_by_slopes(i, q, y, d)
         ball_in_pocket(i, qi, ui, Rc, Vc, modes, d, law, mode)
         ball_rows(i, qi, ui, qd[own], ud[own], d, r_q[own], r_u[own], mode)
-    ring_rows(s, yd[bent:], rings, out[bent:])
+    ring_rows(s, yd[at.loads :], rings, out[at.loads :])
     if mode >= REPORT:
         ring_report(u, q, s, rings, fields(d.report))
         swing_report(q, u, y, d)
@@ -92,29 +86,28 @@ def evaluate(t, y, yd, d, law, out, mode):
 
 
 @part
-def _inner_race(i, qi, ui, rest_q, rest_u, s, d, law, mode):
+def _inner_race(i, qi, ui, ring, s, d, law, mode):
     """Ball i on the inner race, in its frame F."""
     work, pair = fields(d.scratch), fields(d.pair)
     laws, sl = Laws(law[RACE_LAW], law[RACE_RUBS]), fields(d.slices).row[0]
     zero(pair.wrench)
-    ball = on_inner_race(i, qi, ui, rest_q, rest_u, d)
+    ball = on_race(i, qi, ui, ring, INNER_RACE, d)
     race, rings = fields(d.inner), fields(d.rings)
     yielded = _yielded(INNER_RACE, i, ball, race, s, laws, sl, rings)
     if groove_contact(yielded, race, laws, sl, pair.wrench, mode, work.sums):
         _bear(INNER_RACE, i, yielded, race, sl, rings)
-        react(fields(d.pose).F, work.unit, pair.wrench, ball.centre, work.border, INNER)
-        add_wrench(work.wrenches[i], pair.wrench)
+        add_to_ring(i, ball.centre, ring.b, d)
     if mode >= REPORT:
         report_race(i, INNER_RACE, work.sums, fields(d.report))
 
 
 @part
-def _outer_race(i, qi, ui, rest_q, rest_u, s, d, law, mode):
+def _outer_race(i, qi, ui, ring, s, d, law, mode):
     """The same on the outer race."""
     work, pair = fields(d.scratch), fields(d.pair)
     laws, sl = Laws(law[RACE_LAW], law[RACE_RUBS]), fields(d.slices).row[0]
     zero(pair.wrench)
-    ball = _carried(i, on_outer_race(i, qi, ui, rest_q, rest_u, d), d)
+    ball = _carried(i, on_race(i, qi, ui, ring, OUTER_RACE, d), d)
     race, rings = fields(d.outer), fields(d.rings)
     yielded = _yielded(OUTER_RACE, i, ball, race, s, laws, sl, rings)
     if groove_contact(yielded, race, laws, sl, pair.wrench, mode, work.sums):
@@ -122,7 +115,7 @@ def _outer_race(i, qi, ui, rest_q, rest_u, s, d, law, mode):
         if fields(d.swings).push.shape[0] > 0:
             for c in range(2):
                 fields(d.swings).total[i, c] = -pair.wrench[c]
-        push_outer(i, d)
+        add_to_ring(i, ball.centre, ring.b, d)
     if mode >= REPORT:
         report_race(i, OUTER_RACE, work.sums, fields(d.report))
 

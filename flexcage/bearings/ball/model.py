@@ -22,8 +22,15 @@ from flexcage.contacts.spec import Contacts, LandSpec, Lubricant
 from flexcage.contacts.uneven import is_uneven, spread, uneven_race
 from flexcage.geometry.hertz import PointContact
 from flexcage.geometry.spot import marked
-from flexcage.system.bodies import bodies_of, land_data, land_on_stop, unbalanced
-from flexcage.system.data import Bodies, Work, new_work
+from flexcage.system.bodies import (
+    bodies_of,
+    inner_ring_of,
+    land_data,
+    land_on_stop,
+    outer_ring_of,
+    unbalanced,
+)
+from flexcage.system.data import Bodies, RingBody, Work, new_work
 from flexcage.system.layout import Layout
 from flexcage.system.spec import Drive, Load, Mount
 
@@ -40,6 +47,8 @@ class BallModel(NamedTuple):
     """Everything constant that a ball bearing's residual reads."""
 
     bodies: Bodies
+    inner_ring: RingBody
+    outer_ring: RingBody
     cage: BodyData
     inner: Groove
     outer: Groove
@@ -156,15 +165,15 @@ def build_ball_model(
     rng = np.random.default_rng(seed)
     scatter = bearing.ball_scatter * rng.standard_normal(bearing.ball_count)
     radius_of_balls = 0.5 * (bearing.ball_diameter + scatter)
-    tilts = load.tilt == "free"
     return BallModel(
         bodies=bodies_of(
-            bearing, cage, lubricant, drive, load, mount,
+            bearing, cage, lubricant, drive, load,
             element=np.array([bearing.ball_mass, bearing.ball_inertia, bearing.ball_inertia]),
             radius=radius_of_balls,
             area=0.25 * pi * bearing.ball_diameter**2,
-            free=(True, tilts, tilts),
         ),
+        inner_ring=inner_ring_of(bearing, drive, load, free_axially=True),
+        outer_ring=outer_ring_of(bearing, mount),
         cage=unbalanced(body, cage).data,
         inner=groove_of(bearing, contacts, lubricant, inner=True),
         outer=groove_of(bearing, contacts, lubricant, inner=False),

@@ -27,7 +27,7 @@ from flexcage.core.jit import fields, outlined, part
 from flexcage.core.vectors import cross, dot, minus, times, turn_of, xyz
 from flexcage.geometry.hertz import PointContact
 from flexcage.system.data import IN_CONTACTS, POCKET, POCKET_DAMPING, POCKET_FRICTION
-from flexcage.system.layout import of_element, places
+from flexcage.system.layout import of_element
 
 if TYPE_CHECKING:
     from flexcage.bearings.ball.bearing import BallBearing
@@ -59,9 +59,8 @@ def touch_neighbours(t, y, yd, d, law, out, mode):
 
     Compiled separately, so that the code of all other contacts stays as it is, to the bit.
     """
-    Z, apart = fields(d.bodies).radius.shape[0], fields(d.beside).apart
-    at = places(Z, fields(d.pocket).phi_max.shape[0])
-    q, u = y[: at.rest_q], y[at.u : at.rest_u]
+    at, apart = fields(d.places), fields(d.beside).apart
+    Z, q, u = at.elements, y[: at.bodies_q], y[at.u : at.bodies_u]
     for i in range(Z):
         j = i + 1 if i + 1 < Z else 0
         ahead = _ahead(i, j, q)

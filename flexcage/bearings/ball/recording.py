@@ -9,7 +9,6 @@ from scipy.spatial.transform import Rotation
 
 from flexcage.bearings.ball.model import BallModel
 from flexcage.contacts.ball_pocket import SPHERE
-from flexcage.integrate.postures import in_plane
 from flexcage.integrate.recording import Recording
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
@@ -64,7 +63,7 @@ def overlaps(model: BallModel, layout: Layout, y: np.ndarray) -> np.ndarray:
         - (race.radius - radius)
         for race, p in (
             (model.inner, at - q["inner"][:, None, :3]),
-            (model.outer, at - in_plane(q["outer"])[:, None]),
+            (model.outer, at - q["outer"][:, None, :3]),
         )
     ]
     frames = Rotation.from_quat(q["quaternion"], scalar_first=True).as_matrix()

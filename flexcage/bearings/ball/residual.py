@@ -26,11 +26,12 @@ from flexcage.contacts.evaluation import (
 )
 from flexcage.contacts.groove import BallOnRace, groove_contact
 from flexcage.contacts.slices import Laws
-from flexcage.contacts.state import CageModes, set_frame
-from flexcage.core.jit import copy_into, fields, outlined, part, zero
+from flexcage.contacts.state import Q_SPIN, CageModes, set_frame
+from flexcage.core.jit import array_from, copy_into, fields, outlined, part, zero
 from flexcage.core.rotation import matrix_from_quaternion
 from flexcage.core.vectors import (
     MOMENT,
+    RIGID,
     TURN,
     column,
     combine,
@@ -45,6 +46,7 @@ from flexcage.core.vectors import (
 )
 from flexcage.system.data import (
     AXIAL,
+    CAGE_SPIN,
     DRAG,
     FAMILY_PARTS,
     GRAVITY,
@@ -60,30 +62,10 @@ from flexcage.system.data import (
     RACE_FRICTION,
     ROLLING_RESISTANCE,
 )
-from flexcage.system.equations import (
-    CAGE_SPIN,
-    RING_AXIS,
-    RING_SPIN,
-    clear_sums,
-    inner_ring,
-    push_modes,
-    react,
-)
-from flexcage.system.layout import (
-    CAGE,
-    CAGE_TURN,
-    INNER,
-    INNER_TURN,
-    MODES,
-    OUTER,
-    Q_CAGE,
-    Q_INNER_TURN,
-    Q_MODES,
-    Q_OUTER,
-    Q_QUATERNION,
-    of_element,
-    places,
-)
+from flexcage.system.equations import add_to_element, clear_sums, react
+from flexcage.system.floating import modes_at, push_modes
+from flexcage.system.layout import FRAME, QUATERNION, of_element
+from flexcage.system.ring import inner_of, outer_of, set_axes
 
 # places in ``law``: the family's functions ``separate``
 SHARED, BESIDE = FAMILY_PARTS, FAMILY_PARTS + 1
@@ -95,64 +77,50 @@ def evaluate(t, y, yd, d, law, out, mode):
     ``law`` holds the normal laws of race, pocket, (side, rib,) land, their friction laws, and
     what is compiled separately: ``equations.shared_equations`` and ``touch_neighbours``.
     """
-    Z = fields(d.bodies).radius.shape[0]
-    at = places(Z, fields(d.pocket).phi_max.shape[0])
-    q, u, qd, ud = y[: at.rest_q], y[at.u : at.rest_u], yd[: at.rest_q], yd[at.u : at.rest_u]
-    r_q, r_u = out[: at.rest_q], out[at.u : at.rest_u]
-    rest_q, rest_u = y[at.rest_q : at.u], y[at.rest_u : at.lam]
-    modes = set_bodies(rest_q, rest_u, d, mode)
+    at = fields(d.places)
+    q, u, qd, ud = y[: at.bodies_q], y[at.u : at.bodies_u], yd[: at.bodies_q], yd[at.u :]
+    r_q, r_u = out[: at.bodies_q], out[at.u :]
+    modes = set_bodies(y, d, mode)
     law[BESIDE](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
-    Rc, Vc = rest_q[Q_CAGE:Q_QUATERNION], rest_u[CAGE:CAGE_TURN]
-    for i in range(Z):
+    Rc, Vc = array_from(y, at.cage_q), array_from(y, at.cage_u)
+    for i in range(at.elements):
         own = of_element(i)
         qi, ui = q[own], u[own]
         set_frame(qi[2], fields(d.pose).F)
-        _races(i, qi, ui, rest_q, rest_u, d, law, mode)
+        _on_race(i, qi, ui, inner_of(y, d), fields(d.inner), INNER_RACE, d, law, mode)
+        _on_race(i, qi, ui, outer_of(y, d), fields(d.outer), OUTER_RACE, d, law, mode)
         ball_in_pocket(i, qi, ui, Rc, Vc, modes, d, law, mode)
         ball_rows(i, qi, ui, qd[own], ud[own], d, r_q[own], r_u[own], mode)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
 
 
 @part
-def set_bodies(rest_q, rest_u, d, mode):
-    """Cage's attitude and spin, ring's axis and spin, and no forces yet; the cage's modes."""
-    work, phi_max = fields(d.scratch), fields(d.pocket).phi_max
+def set_bodies(y, d, mode):
+    """Cage's attitude and spin, axes and spins of the rings, and no forces yet; the cage's
+    modes."""
+    work, phi_max, at = fields(d.scratch), fields(d.pocket).phi_max, fields(d.places)
     clear_sums(work.border, d, mode)
-    quat, qf = rest_q[Q_QUATERNION:Q_MODES], rest_q[Q_MODES:]
-    wb, qfd = rest_u[CAGE_TURN:MODES], rest_u[MODES:]
-    matrix_from_quaternion(quat, work.A)
-    put(work.vec[CAGE_SPIN], turned(work.A, xyz(wb)))
-    inner_ring(rest_q[:Q_OUTER], rest_u[:OUTER], work.vec)
+    qf = y[modes_at(at.cage_q + FRAME, at.modes)]
+    qfd = y[modes_at(at.cage_u + RIGID, at.modes)]
+    matrix_from_quaternion(array_from(y, at.cage_q + QUATERNION), work.A)
+    put(work.vec[CAGE_SPIN], turned(work.A, turn_of(array_from(y, at.cage_u))))
+    set_axes(y, d)
     margin = 0.0
-    for m in range(phi_max.shape[0]):
+    for m in range(at.modes):
         margin += phi_max[m] * abs(qf[m])
     zero(work.wrenches)
     return CageModes(qf, qfd, margin)
 
 
 @part
-def on_inner_race(i, qi, ui, rest_q, rest_u, d):
-    """Ball i as the inner race meets it, in its frame F."""
-    F, vec = fields(d.pose).F, fields(d.scratch).vec
-    P = minus((qi[0], qi[1], 0.0), turned(F, xyz(rest_q[:Q_INNER_TURN])))
-    return BallOnRace(
-        fields(d.bodies).radius[i], P, xyz(ui), turn_of(ui), turned(F, xyz(vec[RING_AXIS])),
-        turned(F, xyz(rest_u[:INNER_TURN])), turned(F, xyz(vec[RING_SPIN])),
-        fields(d.memory).race[i, INNER_RACE], qi[2] - rest_q[Q_INNER_TURN + 2],
-        fields(d.spot).has[i], turn_of(qi),
-    )  # fmt: skip
-
-
-@part
-def on_outer_race(i, qi, ui, rest_q, rest_u, d):
-    """The same of the outer race, whose ring moves in its plane only."""
+def on_race(i, qi, ui, ring, race, d):
+    """Ball i as the race of a ring meets it, in its frame F."""
     F = fields(d.pose).F
-    P = minus((qi[0], qi[1], 0.0), turned(F, (0.0, rest_q[Q_OUTER], rest_q[Q_OUTER + 1])))
+    P = minus((qi[0], qi[1], 0.0), turned(F, xyz(ring.q)))
     return BallOnRace(
-        fields(d.bodies).radius[i], P, xyz(ui), turn_of(ui), (1.0, 0.0, 0.0),
-        turned(F, (0.0, rest_u[OUTER], rest_u[OUTER + 1])), (0.0, 0.0, 0.0),
-        fields(d.memory).race[i, OUTER_RACE], qi[2], fields(d.spot).has[i],
-        turn_of(qi),
+        fields(d.bodies).radius[i], P, xyz(ui), turn_of(ui), turned(F, xyz(ring.axis)),
+        turned(F, xyz(ring.u)), turned(F, xyz(ring.spin)), fields(d.memory).race[i, race],
+        qi[2] - ring.q[Q_SPIN], fields(d.spot).has[i], turn_of(qi),
     )  # fmt: skip
 
 
@@ -175,39 +143,25 @@ def in_pocket(i, qi, ui, Rc, Vc, d):
 
 
 @part
-def _races(i, qi, ui, rest_q, rest_u, d, law, mode):
-    """Ball i on both races, in its frame F."""
-    F, work, pair = fields(d.pose).F, fields(d.scratch), fields(d.pair)
-    border = work.border
+def _on_race(i, qi, ui, ring, groove, race, d, law, mode):
+    """Ball i on the race ``groove`` of a ring, in its frame F."""
+    work, pair = fields(d.scratch), fields(d.pair)
     laws, sl = Laws(law[RACE_LAW], law[RACE_RUBS]), fields(d.slices).row[0]
     zero(pair.wrench)
-    ball = on_inner_race(i, qi, ui, rest_q, rest_u, d)
-    if groove_contact(ball, fields(d.inner), laws, sl, pair.wrench, mode, work.sums):
-        react(F, work.unit, pair.wrench, ball.centre, border, INNER)
-        add_wrench(work.wrenches[i], pair.wrench)
+    ball = on_race(i, qi, ui, ring, race, d)
+    if groove_contact(ball, groove, laws, sl, pair.wrench, mode, work.sums):
+        add_to_ring(i, ball.centre, ring.b, d)
     if mode >= REPORT:
-        report_race(i, INNER_RACE, work.sums, fields(d.report))
-    zero(pair.wrench)
-    ball = on_outer_race(i, qi, ui, rest_q, rest_u, d)
-    if groove_contact(ball, fields(d.outer), laws, sl, pair.wrench, mode, work.sums):
-        push_outer(i, d)
-    if mode >= REPORT:
-        report_race(i, OUTER_RACE, work.sums, fields(d.report))
+        report_race(i, race, work.sums, fields(d.report))
 
 
 @part
-def push_outer(i, d):
-    """Add the pair's wrench to ball i and to the outer ring."""
-    F, wrench, work = fields(d.pose).F, fields(d.pair).wrench, fields(d.scratch)
-    add_wrench(work.wrenches[i], wrench)
-    for c in range(2):
-        work.border[OUTER + c] -= F[1, 1 + c] * wrench[1] + F[2, 1 + c] * wrench[2]
-
-
-@part
-def add_wrench(total, wrench):
-    for c in range(6):
-        total[c] += wrench[c]
+def add_to_ring(i, P, b, d):
+    """Add the pair's wrench to ball i and to a ring, from which P leads to the ball and whose
+    border begins at b."""
+    wrench, work = fields(d.pair).wrench, fields(d.scratch)
+    react(fields(d.pose).F, work.unit, wrench, P, work.border, b)
+    add_to_element(work.wrenches[i], wrench)
 
 
 @part
@@ -238,9 +192,10 @@ def ball_in_pocket(i, qi, ui, Rc, Vc, modes, d, law, mode):
     laws, sl = Laws(law[POCKET_LAW], law[POCKET_RUBS]), fields(d.slices).row[0]
     hit = pocket_wall_contact(i, ball, modes, data, laws, sl, pw, pair.wrench, mode, sums)
     if hit:
-        add_wrench(work.wrenches[i], pair.wrench)
-        react(fields(d.pose).F, work.A, pair.wrench, ball.centre, work.border, CAGE)
-        push_modes(data, i, pw, work.border)
+        add_to_element(work.wrenches[i], pair.wrench)
+        at = fields(d.places)
+        react(fields(d.pose).F, work.A, pair.wrench, ball.centre, work.border, at.cage_b)
+        push_modes(data, i, pw, work.border[modes_at(at.cage_b + RIGID, at.modes)])
     if mode >= REPORT:
         _report_pocket(i, hit, sums, pw, fields(d.report), mode)
 

@@ -13,8 +13,7 @@ from flexcage.bearings.ball.residual import (
     BESIDE,
     SHARED,
     in_pocket,
-    on_inner_race,
-    on_outer_race,
+    on_race,
     set_bodies,
 )
 from flexcage.contacts.ball_pocket_tangent import pocket_wall_tangent
@@ -28,57 +27,54 @@ from flexcage.contacts.evaluation import (
 from flexcage.contacts.groove_tangent import groove_tangent
 from flexcage.contacts.slices import Laws
 from flexcage.contacts.state import set_frame
-from flexcage.core.jit import fields, part, zero
-from flexcage.core.vectors import TURN, column, minus, put, turn_of, turned, xyz
-from flexcage.system.data import AXIAL, FAMILY_PARTS, MASS
-from flexcage.system.equations import CAGE_SPIN
-from flexcage.system.layout import (
-    CAGE,
-    CAGE_TURN,
-    INNER,
-    OUTER,
-    Q_CAGE,
-    Q_QUATERNION,
-    of_element,
-    places,
+from flexcage.core.jit import array_from, fields, part, zero
+from flexcage.core.vectors import RIGID, TURN, column, minus, put, turn_of, turned, xyz
+from flexcage.system.data import (
+    AXIAL,
+    CAGE_SPIN,
+    FAMILY_PARTS,
+    INNER_RACE,
+    MASS,
+    OUTER_RACE,
 )
+from flexcage.system.layout import of_element
 from flexcage.system.relative import Against, Relative, add_slopes
+from flexcage.system.ring import inner_of, outer_of
 
 
 def linearise(t, y, yd, data):
     """Keep dF/dy and dF/dy' at this point; see ``system.newton``."""
     d, law = data[0], data[1]
-    Z, nm = fields(d.bodies).radius.shape[0], fields(d.pocket).phi_max.shape[0]
-    at = places(Z, nm)
-    q, u = y[: at.rest_q], y[at.u : at.rest_u]
-    rest_q, rest_u = y[at.rest_q : at.u], y[at.rest_u : at.lam]
-    modes = set_bodies(rest_q, rest_u, d, TANGENT)
+    at = fields(d.places)
+    q, u = y[: at.bodies_q], y[at.u : at.bodies_u]
+    modes = set_bodies(y, d, TANGENT)
     law[BESIDE](t, y, yd, d, law[:FAMILY_PARTS], fields(d.scratch).out, TANGENT)
-    Rc, Vc = rest_q[Q_CAGE:Q_QUATERNION], rest_u[CAGE:CAGE_TURN]
-    for i in range(Z):
+    Rc, Vc = array_from(y, at.cage_q), array_from(y, at.cage_u)
+    for i in range(at.elements):
         qi, ui = q[of_element(i)], u[of_element(i)]
         set_frame(qi[2], fields(d.pose).F)
-        _inner(i, qi, ui, rest_q, rest_u, d, law)
-        _outer(i, qi, ui, rest_q, rest_u, d, law)
+        _race(i, qi, ui, inner_of(y, d), fields(d.inner), INNER_RACE, d, law)
+        _race(i, qi, ui, outer_of(y, d), fields(d.outer), OUTER_RACE, d, law)
         _pocket(i, qi, ui, Rc, Vc, modes, d, law)
         _inertia(i, qi[1], ui, d)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], fields(d.scratch).out, TANGENT)
 
 
 @part
-def _inner(i, qi, ui, rest_q, rest_u, d, law):
+def _race(i, qi, ui, ring, groove, race, d, law):
+    """Ball i on the race ``groove`` of a ring."""
     F, pair, work = fields(d.pose).F, fields(d.pair), fields(d.scratch)
     laws, sl = Laws(law[RACE_LAW], law[RACE_RUBS]), fields(d.slices).row[0]
-    ball = on_inner_race(i, qi, ui, rest_q, rest_u, d)
-    if not groove_tangent(ball, fields(d.inner), laws, sl, pair, work.sums):
+    ball = on_race(i, qi, ui, ring, race, d)
+    if not groove_tangent(ball, groove, laws, sl, pair, work.sums):
         return
     moves = work.S
     zero(moves)
     for c in range(3):
         put(moves[c], column(F, c))
         put(moves[TURN + c, TURN:], column(F, c))
-    by, tan = _relative(ball, ui, qi[1]), fields(d.tangent)
-    add_slopes(i, by, Against(INNER, 6, 1, 0), moves, pair.K, pair.C, pair.wrench, pair.W[0], tan)
+    by, tan, body = _relative(ball, ui, qi[1]), fields(d.tangent), Against(ring.b, 6, 1, 0, 0)
+    add_slopes(i, by, body, moves, pair.K, pair.C, pair.wrench, pair.W[0], tan)
 
 
 @part
@@ -86,21 +82,6 @@ def _relative(ball, ui, r):
     """Motion of a ball (``BallOnRace``) and its ring."""
     V, w = xyz(ui), turn_of(ui)
     return Relative(ball.centre, minus(V, ball.ring_velocity), ball.ring_spin, V, w, r)
-
-
-@part
-def _outer(i, qi, ui, rest_q, rest_u, d, law):
-    F, pair, work = fields(d.pose).F, fields(d.pair), fields(d.scratch)
-    laws, sl = Laws(law[RACE_LAW], law[RACE_RUBS]), fields(d.slices).row[0]
-    ball = on_outer_race(i, qi, ui, rest_q, rest_u, d)
-    if not groove_tangent(ball, fields(d.outer), laws, sl, pair, work.sums):
-        return
-    moves = work.S
-    zero(moves)
-    for c in range(2):
-        put(moves[c], column(F, 1 + c))
-    by, tan = _relative(ball, ui, qi[1]), fields(d.tangent)
-    add_slopes(i, by, Against(OUTER, 2, 0, 0), moves, pair.K, pair.C, pair.wrench, pair.W[0], tan)
 
 
 @part
@@ -122,7 +103,9 @@ def _pocket(i, qi, ui, Rc, Vc, modes, d, law):
     V, w = xyz(ui), turn_of(ui)
     spin = turned(F, xyz(work.vec[CAGE_SPIN]))
     by = Relative(ball.centre, minus(V, turned(F, xyz(Vc))), spin, V, w, qi[1])
-    add_slopes(i, by, Against(CAGE, 6, 0, 1), moves, pw.K, pw.C, wrench, pw.gen[0], tan)
+    b = fields(d.places).cage_b
+    body = Against(b, 6, 0, 1, b + RIGID)
+    add_slopes(i, by, body, moves, pw.K, pw.C, wrench, pw.gen[0], tan)
 
 
 @part

@@ -237,6 +237,13 @@ class RollerBearing(Bearing):
         area = 0.25 * pi * (self.outside_diameter**2 - self.outer_race_diameter**2)
         return self.material.density * area * self.width
 
+    @cached_property
+    def outer_ring_inertia(self) -> tuple[float, float]:
+        """Axial and transverse moments of inertia of a hollow cylinder of that mass [kg m^2]."""
+        return hollow_cylinder_inertia(
+            self.outer_ring_mass, self.outer_race_diameter, self.outside_diameter, self.width
+        )
+
     def check(self, cage: Any = None, defects: Sequence[Any] = ()) -> None:
         checks.check(self, cage, defects)
 

@@ -14,12 +14,10 @@ from flexcage.bearings.cylindrical_roller.motion import MOTION
 from flexcage.bearings.cylindrical_roller.residual import (
     POCKETS,
     SHARED,
-    add_inner,
-    add_outer,
-    beside_inner,
-    beside_outer,
-    inner_ribs,
+    add_to_ring,
+    beside,
     on_ribs,
+    push_by_ribs,
     report_outer,
     report_race,
     report_ribs,
@@ -46,14 +44,13 @@ from flexcage.system.bending import (
     guess,
     orbit_of,
     push_by_slopes,
-    ring_forces_at,
     ring_report,
     ring_rows,
     with_ring_weights,
 )
 from flexcage.system.data import FAMILY_PARTS, INNER_RACE, OUTER_RACE
-from flexcage.system.layout import CAGE, OUTER, Q_CAGE, Q_OUTER, places
 from flexcage.system.motion import BendingMotion, bending_model, parts_type
+from flexcage.system.ring import inner_of, outer_of
 from flexcage.system.ring_walls import bear_ribs, carry_ribs
 from flexcage.system.swinging import push_swings, swing, swing_report, swing_rows
 
@@ -63,26 +60,23 @@ BendingRollerParts = parts_type("BendingRollerParts", BendingRollerModel, __name
 
 def evaluate(t, y, yd, d, law, out, mode):
     """Residual into ``out``, as ``residual.evaluate``."""
-    Z, nm = fields(d.bodies).radius.shape[0], fields(d.pocket).phi_max.shape[0]
-    at, rings, bent = places(Z, nm), fields(d.rings), ring_forces_at(d)
-    q, u, qd, ud = y[: at.rest_q], y[at.u : at.rest_u], yd[: at.rest_q], yd[at.u : at.rest_u]
-    rest_q, rest_u, s = y[at.rest_q : at.u], y[at.rest_u : at.lam], y[bent:]
+    at, rings = fields(d.places), fields(d.rings)
+    Z, q, u = at.elements, y[: at.bodies_q], y[at.u : at.bodies_u]
+    s = y[at.loads :]
     asked = RESIDUAL if mode == OUTER_RING else mode
-    set_bodies(q, u, rest_q, rest_u, d, asked)
+    set_bodies(y, d, asked)
     bend_rings(q, s, rings)
     swing(q, u, y, d)
     lot = fields(d.race_work).who.shape[0]
     for first in range(0, Z if mode != OUTER_RING else 0, lot):
-        span = (first, min(first + lot, Z))
-        _inner_contacts(span, q, rest_q, rest_u, s, d, law, mode)
+        _inner_contacts((first, min(first + lot, Z)), y, s, d, law, mode)
     for first in range(0, Z, lot):
-        span = (first, min(first + lot, Z))
-        _outer_contacts(span, q, rest_q, rest_u, s, d, law, asked)
-    _outer_ribs(q, u, rest_q, rest_u, d, law, asked)
+        _outer_contacts((first, min(first + lot, Z)), y, s, d, law, asked)
+    _outer_ribs(q, u, outer_of(y, d), d, law, asked)
     for i in range(Z):
         take_pose(fields(d.scratch).poses[i], fields(d.pose))
         push_swings(i, d)
-        push_by_slopes(i, q, rest_q, d)
+        push_by_slopes(i, q, y, d)
     if mode >= REPORT:
         report_outer(d)
     if mode == OUTER_RING:
@@ -90,84 +84,83 @@ def evaluate(t, y, yd, d, law, out, mode):
     if mode >= REPORT:
         ring_report(u, q, s, rings, fields(d.report))
         swing_report(q, u, y, d)
-    ring_rows(s, yd[bent:], rings, out[bent:])
+    ring_rows(s, yd[at.loads :], rings, out[at.loads :])
     law[POCKETS](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
-    roller_rows(q, u, qd, ud, d, out[: at.rest_q], out[at.u : at.rest_u], mode)
+    roller_rows(y, yd, d, out, mode)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
     swing_rows(y, yd, d, out)
 
 
 @part
-def _inner_contacts(span, q, rest_q, rest_u, s, d, law, mode):
+def _inner_contacts(span, y, s, d, law, mode):
     """Rollers span[0] to before span[1] on the inner race and its ribs."""
     pose, pair, work, rings = fields(d.pose), fields(d.pair), fields(d.scratch), fields(d.rings)
     side, rw, memory = fields(d.inner), fields(d.race_work), fields(d.memory)
-    ring_q, ring_u, radius = rest_q[:Q_OUTER], rest_u[:OUTER], fields(d.bodies).radius
-    count = 0
+    q, ring, radius = y[: fields(d.places).bodies_q], inner_of(y, d), fields(d.bodies).radius
+    turn, count = ring.q[Q_SPIN], 0
     for i in range(span[0], span[1]):
         take_pose(work.poses[i], pose)
         at = rw.partner[count]
-        beside_inner(i, q, ring_q, ring_u, d, at)
-        inner_ribs(i, at, d, law, mode)
+        beside(i, q, ring, d, at)
+        push_by_ribs(i, at, fields(d.rib), ring.b, d, law, mode)
         displace(at, guess(INNER_RACE, i, s, rings), rings.way)
-        onset = memory.race[i, INNER_RACE]
-        if meet_race(count, pose, side, radius[i], ring_q[Q_SPIN], onset, rw):
+        if meet_race(count, pose, side, radius[i], turn, memory.race[i, INNER_RACE], rw):
             rw.who[count] = i
             count += 1
     _press(count, INNER_RACE, side, s, d, Laws(law[RACE_LAW], law[RACE_RUBS]))
     for m in range(count):
         i = rw.who[m]
         take_pose(work.poses[i], pose)
-        push_by_race(m, pose, side, radius[i], ring_q[Q_SPIN], rw, pair, mode, work.sums)
-        beside_inner(i, q, ring_q, ring_u, d, rw.partner[m])  # forces act on its seat
-        add_inner(i, rw.partner[m, CENTRE], d, mode)
+        push_by_race(m, pose, side, radius[i], turn, rw, pair, mode, work.sums)
+        beside(i, q, ring, d, rw.partner[m])  # forces act on its seat
+        add_to_ring(i, rw.partner[m, CENTRE], ring.b, d, mode)
         if mode >= REPORT:
             report_race(i, INNER_RACE, work.sums, fields(d.report))
 
 
 @part
-def _outer_contacts(span, q, rest_q, rest_u, s, d, law, mode):
+def _outer_contacts(span, y, s, d, law, mode):
     """The same on the outer race."""
     pose, pair, work, rings = fields(d.pose), fields(d.pair), fields(d.scratch), fields(d.rings)
     side, rw, memory = fields(d.outer), fields(d.race_work), fields(d.memory)
-    out_q, out_u, radius = rest_q[Q_OUTER:Q_CAGE], rest_u[OUTER:CAGE], fields(d.bodies).radius
-    count = 0
+    q, ring, radius = y[: fields(d.places).bodies_q], outer_of(y, d), fields(d.bodies).radius
+    turn, count = ring.q[Q_SPIN], 0
     for i in range(span[0], span[1]):
         take_pose(work.poses[i], pose)
         at = rw.partner[count]
-        beside_outer(i, q, out_q, out_u, d, at)
+        beside(i, q, ring, d, at)
         displace(at, guess(OUTER_RACE, i, s, rings), rings.way)
         _carry(i, at, d)
-        onset = memory.race[i, OUTER_RACE]
-        if meet_race(count, pose, side, radius[i], 0.0, onset, rw):
+        if meet_race(count, pose, side, radius[i], turn, memory.race[i, OUTER_RACE], rw):
             rw.who[count] = i
             count += 1
     _press(count, OUTER_RACE, side, s, d, Laws(law[RACE_LAW], law[RACE_RUBS]))
     for m in range(count):
         i = rw.who[m]
         take_pose(work.poses[i], pose)
-        push_by_race(m, pose, side, radius[i], 0.0, rw, pair, mode, work.sums)
+        push_by_race(m, pose, side, radius[i], turn, rw, pair, mode, work.sums)
         _bear(i, rw.partner[m, CENTRE], d)
-        add_outer(i, d, mode)
+        beside(i, q, ring, d, rw.partner[m])  # forces act on its seat
+        add_to_ring(i, rw.partner[m, CENTRE], ring.b, d, mode)
         if mode >= REPORT:
             report_race(i, OUTER_RACE, work.sums, fields(d.report))
 
 
 @part
-def _outer_ribs(q, u, rest_q, rest_u, d, law, mode):
+def _outer_ribs(q, u, ring, d, law, mode):
     """Rollers on the outer ring's ribs, if it has any, which swing with it."""
     pose, work = fields(d.pose), fields(d.scratch)
     ribs, at = fields(d.outer_rib), fields(d.race_work).partner[0]
-    out_q, out_u = rest_q[Q_OUTER:Q_CAGE], rest_u[OUTER:CAGE]
     if ribs.end <= ribs.first:
         return
     for i in range(work.poses.shape[0]):
         take_pose(work.poses[i], pose)
-        beside_outer(i, q, out_q, out_u, d, at)
+        beside(i, q, ring, d, at)
         carry_ribs(i, orbit_of(q, u, i), at, d)
         if on_ribs(i, at, ribs, d, law, mode):
             bear_ribs(i, at[CENTRE], d)
-            add_outer(i, d, mode)
+            beside(i, q, ring, d, at)
+            add_to_ring(i, at[CENTRE], ring.b, d, mode)
             if mode >= REPORT:
                 report_ribs(i, ribs.column, work.sums, fields(d.report))
 

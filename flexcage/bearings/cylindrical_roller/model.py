@@ -29,8 +29,15 @@ from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT
 from flexcage.contacts.uneven import is_uneven, spread, uneven_race
 from flexcage.geometry.spot import marked
 from flexcage.modes.basis import CageInterface
-from flexcage.system.bodies import bodies_of, elastic_constants, land_data, unbalanced
-from flexcage.system.data import Bodies, Work, new_work
+from flexcage.system.bodies import (
+    bodies_of,
+    elastic_constants,
+    inner_ring_of,
+    land_data,
+    outer_ring_of,
+    unbalanced,
+)
+from flexcage.system.data import Bodies, RingBody, Work, new_work
 from flexcage.system.layout import Layout
 from flexcage.system.spec import Drive, Load, Mount
 
@@ -46,6 +53,8 @@ class RollerModel(NamedTuple):
     """Everything constant that a roller bearing's residual reads."""
 
     bodies: Bodies
+    inner_ring: RingBody
+    outer_ring: RingBody
     cage: BodyData
     inner: RaceSide
     outer: RaceSide
@@ -254,15 +263,16 @@ def build_roller_model(
     )
     outer, radius, clearance = _guiding_land(bearing, cage)
     land = replace(contacts.land.on(bearing.land(cage)), clearance=clearance)
-    tilts, spot = load.tilt == "free", bearing.roller_spot
+    spot = bearing.roller_spot
     return RollerModel(
         bodies=bodies_of(
-            bearing, cage, lubricant, drive, load, mount,
+            bearing, cage, lubricant, drive, load,
             element=np.array([bearing.roller_mass, *bearing.roller_inertia]),
             radius=0.5 * (bearing.roller_diameter + scatter),
             area=bearing.roller_diameter * bearing.roller_length,
-            free=(load.frees_axially(bearing), tilts, tilts),
         ),
+        inner_ring=inner_ring_of(bearing, drive, load, free_axially=load.frees_axially(bearing)),
+        outer_ring=outer_ring_of(bearing, mount),
         cage=unbalanced(body, cage).data,
         inner=_race_side(bearing, contacts, lubricant, inner=True),
         outer=_race_side(bearing, contacts, lubricant, inner=False),

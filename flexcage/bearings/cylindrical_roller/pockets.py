@@ -28,8 +28,9 @@ from flexcage.contacts.pocket_wall import (
     RollerInPocket,
 )
 from flexcage.contacts.state import CageModes, shift_matrix, take_pose
-from flexcage.core.jit import copy_into, fields, outlined, part, zero
+from flexcage.core.jit import array_from, copy_into, fields, outlined, part, zero
 from flexcage.core.vectors import (
+    RIGID,
     column,
     combine,
     cross,
@@ -45,54 +46,40 @@ from flexcage.core.vectors import (
 )
 from flexcage.system.blocks import scatter, scatter_modes
 from flexcage.system.data import (
+    CAGE_SPIN,
     IN_CONTACTS,
     INNER_RACE,
+    LEVER,
     OUTER_RACE,
+    PARTNER_V,
+    PARTNER_W,
     POCKET,
     POCKET_DAMPING,
     POCKET_FRICTION,
 )
-from flexcage.system.equations import (
-    CAGE_SPIN,
-    LEVER,
-    PARTNER_V,
-    PARTNER_W,
-    add_to_element,
-    push_modes,
-    react,
-)
-from flexcage.system.layout import (
-    CAGE,
-    CAGE_TURN,
-    MODES,
-    OUTER,
-    Q_CAGE,
-    Q_MODES,
-    Q_QUATERNION,
-    of_element,
-    places,
-)
+from flexcage.system.equations import add_to_element, react
+from flexcage.system.floating import modes_at, push_modes
+from flexcage.system.layout import FRAME, of_element
+from flexcage.system.ring import inner_of, outer_of
 
 
 def roller_pockets(t, y, yd, d, law, out, mode):
     """Add the pockets' wrenches to ``Scratch.wrenches`` and ``border``; for other arguments see
     ``residual.evaluate``. Poses of rollers and cage are in ``Scratch`` already."""
-    work, phi_max = fields(d.scratch), fields(d.pocket).phi_max
-    Z, nm = fields(d.bodies).radius.shape[0], phi_max.shape[0]
-    at = places(Z, nm)
-    q, rest_q, rest_u = y[: at.rest_q], y[at.rest_q : at.u], y[at.rest_u : at.lam]
-    qf, qfd, modal = rest_q[Q_MODES:], rest_u[MODES:], work.modal
+    work, phi_max, at = fields(d.scratch), fields(d.pocket).phi_max, fields(d.places)
+    q, nm, modal = y[: at.bodies_q], at.modes, work.modal
+    qf, qfd = array_from(y, at.cage_q + FRAME), array_from(y, at.cage_u + RIGID)
     margin = 0.0
     for m in range(nm):
         margin += phi_max[m] * abs(qf[m])
         modal[0, m], modal[1, m] = qf[m], qfd[m]
     modes = CageModes(modal[0], modal[1], margin)
-    Rc, Vc = rest_q[Q_CAGE:Q_QUATERNION], rest_u[CAGE:CAGE_TURN]
-    for i in range(Z):
+    Rc, Vc = array_from(y, at.cage_q), array_from(y, at.cage_u)
+    for i in range(at.elements):
         take_pose(work.poses[i], fields(d.pose))
         _pocket(i, q[of_element(i)], Rc, Vc, modes, d, law, mode)
         if mode >= REPORT:
-            _approach(i, rest_u[:OUTER], rest_u[OUTER:CAGE], d)
+            _approach(i, inner_of(y, d).u, outer_of(y, d).u, d)
 
 
 @part
@@ -114,12 +101,12 @@ def _pocket(i, qi, Rc, Vc, modes, d, law, mode):
     roller = RollerInPocket(pose, radius, D, memory.pocket[i], memory.deflection[i])
     cage = CageAtRoller(Vr, wr, modes)
     laws = PocketLaws(law[POCKET_LAW], law[SIDE_LAW], law[POCKET_RUBS], law[SIDE_RUBS])
-    sl = fields(d.slices).row[0]
+    sl, at = fields(d.slices).row[0], fields(d.places)
     hit = pocket_contact(i, roller, cage, data, laws, sl, pw, pair, mode, sums)
     if hit:
-        add_to_element(work.wrenches[i], pair)
-        react(F, A, pair.wrench, xyz(D), border, CAGE)
-        push_modes(data, i, pw, border)
+        add_to_element(work.wrenches[i], pair.wrench)
+        react(F, A, pair.wrench, xyz(D), border, at.cage_b)
+        push_modes(data, i, pw, border[modes_at(at.cage_b + RIGID, at.modes)])
     if mode == TANGENT:
         tan.active[i] = 1 if hit else 0
         if hit:
@@ -127,9 +114,9 @@ def _pocket(i, qi, Rc, Vc, modes, d, law, mode):
             for c in range(3):
                 put(work.R[1, c], turned_back(A, row(F, c)))
             shift_matrix(work.R, D, work.S)
-            scatter(pair, work.S, i, CAGE, tan, work.T6)
+            scatter(pair, work.S, i, at.cage_b, tan, work.T6)
             if modes.q.shape[0] > 0:
-                scatter_modes(i, pw, work.S, tan, data.phi_max.shape[0])
+                scatter_modes(i, pw, work.S, at.cage_b, tan, at.modes)
     elif mode >= REPORT:
         _report_pocket(i, hit, sums, pw, fields(d.report), mode)
 
@@ -160,13 +147,13 @@ def _report_pocket(i, hit, sums, pw, rep, mode):
 
 
 @part
-def _approach(i, ring_u, out_u, d):
+def _approach(i, inner_u, outer_u, d):
     """Approach speed of roller i at each of its contacts, at its centre (for the onset memory)."""
     pose, vec, G = fields(d.pose), fields(d.scratch).vec, fields(d.pocket_work).G
     rep = fields(d.report)
     F, V = pose.F, xyz(pose.V)
-    rep.approach[i, INNER_RACE] = F[1, 1] * ring_u[1] + F[1, 2] * ring_u[2] - V[1]
-    rep.approach[i, OUTER_RACE] = V[1] - F[1, 1] * out_u[0] - F[1, 2] * out_u[1]
+    rep.approach[i, INNER_RACE] = F[1, 1] * inner_u[1] + F[1, 2] * inner_u[2] - V[1]
+    rep.approach[i, OUTER_RACE] = V[1] - F[1, 1] * outer_u[1] - F[1, 2] * outer_u[2]
     cage = plus(xyz(vec[PARTNER_V]), cross(xyz(vec[PARTNER_W]), xyz(vec[LEVER])))
     v = minus(V, cage)
     t, x = dot(row(G, 2), v), dot(row(G, 0), v)
@@ -175,8 +162,8 @@ def _approach(i, ring_u, out_u, d):
     ribs = POCKET + rep.pocket_normal.shape[1]
     inner, outer = fields(d.rib), fields(d.outer_rib)
     if inner.end > inner.first:
-        x = V[0] - ring_u[0]
+        x = V[0] - inner_u[0]
         rep.approach[i, ribs + inner.column], rep.approach[i, ribs + inner.column + 1] = x, -x
     if outer.end > outer.first:
-        x = V[0]
+        x = V[0] - outer_u[0]
         rep.approach[i, ribs + outer.column], rep.approach[i, ribs + outer.column + 1] = x, -x

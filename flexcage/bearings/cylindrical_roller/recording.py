@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from flexcage.bearings.cylindrical_roller.model import RollerModel, rib_columns
 from flexcage.contacts.pocket_wall import N_LOCAL
-from flexcage.integrate.postures import in_plane, orientation, to_body
+from flexcage.integrate.postures import orientation, to_body
 from flexcage.integrate.recording import Recording
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
@@ -83,7 +83,7 @@ def overlaps(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarray:
     radius, (cos, sin) = model.bodies.radius, model.pocket.azimuth.T
     x, r, psi = np.moveaxis(q["elements"][..., :3], -1, 0)
     at = np.stack([x, r * np.cos(psi), r * np.sin(psi)], axis=-1)
-    in_inner, in_outer = at - q["inner"][:, None, :3], at - in_plane(q["outer"])[:, None]
+    in_inner, in_outer = at - q["inner"][:, None, :3], at - q["outer"][:, None, :3]
     frames = Rotation.from_quat(q["quaternion"], scalar_first=True).as_matrix()
     seen = np.einsum("nzc,ncd->nzd", at - q["cage"][:, None], frames)
     ahead, end = seen[..., 2] * cos - seen[..., 1] * sin, model.pocket.half_roller

@@ -44,18 +44,13 @@ from flexcage.contacts.state import (
     shift_matrix,
     take_pose,
 )
-from flexcage.core.jit import copy_into, fields, part, zero
+from flexcage.core.jit import array_from, copy_into, fields, part, zero
 from flexcage.core.rotation import matrix_from_quaternion
-from flexcage.core.vectors import (
-    minus,
-    put,
-    turn_of,
-    turned,
-    xyz,
-)
-from flexcage.system.blocks import scatter, scatter_outer
+from flexcage.core.vectors import RIGID, minus, put, turn_of, turned, xyz
+from flexcage.system.blocks import scatter
 from flexcage.system.data import (
     AXIAL,
+    CAGE_SPIN,
     DRAG,
     FAMILY_PARTS,
     GRAVITY,
@@ -72,28 +67,9 @@ from flexcage.system.data import (
     ROLLING_RESISTANCE,
     TRANSVERSE,
 )
-from flexcage.system.equations import (
-    CAGE_SPIN,
-    RING_AXIS,
-    RING_SPIN,
-    add_to_element,
-    clear_sums,
-    inner_ring,
-    react,
-)
-from flexcage.system.layout import (
-    CAGE,
-    CAGE_TURN,
-    INNER,
-    MODES,
-    OUTER,
-    Q_CAGE,
-    Q_MODES,
-    Q_OUTER,
-    Q_QUATERNION,
-    of_element,
-    places,
-)
+from flexcage.system.equations import add_to_element, clear_sums, react
+from flexcage.system.layout import QUATERNION, of_element
+from flexcage.system.ring import inner_of, outer_of, set_axes
 
 # places in ``law``: the family's functions ``separate``
 POCKETS, SHARED = FAMILY_PARTS, FAMILY_PARTS + 1
@@ -122,41 +98,38 @@ def evaluate(t, y, yd, d, law, out, mode):
     constraints and what puts these in (``holding.hold``), and what is compiled separately:
     ``roller_pockets`` and ``equations.shared_equations``.
     """
-    Z = fields(d.bodies).radius.shape[0]
-    nm = fields(d.pocket).phi_max.shape[0]
-    at = places(Z, nm)
-    q, u, qd, ud = y[: at.rest_q], y[at.u : at.rest_u], yd[: at.rest_q], yd[at.u : at.rest_u]
-    r_q, r_u = out[: at.rest_q], out[at.u : at.rest_u]
-    rest_q, rest_u = y[at.rest_q : at.u], y[at.rest_u : at.lam]
+    at = fields(d.places)
+    Z, q = at.elements, y[: at.bodies_q]
     asked = RESIDUAL if mode == OUTER_RING else mode
-    set_bodies(q, u, rest_q, rest_u, d, asked)
-    ring_q, ring_u = rest_q[:Q_OUTER], rest_u[:OUTER]
+    set_bodies(y, d, asked)
     lot = fields(d.race_work).who.shape[0]
     for first in range(0, Z if mode != OUTER_RING else 0, lot):
-        _inner_contacts(first, min(first + lot, Z), q, ring_q, ring_u, d, law, mode)
-    out_q, out_u = rest_q[Q_OUTER:Q_CAGE], rest_u[OUTER:CAGE]
+        span = (first, min(first + lot, Z))
+        _on_ring(span, q, inner_of(y, d), fields(d.inner), fields(d.rib), INNER_RACE, d, law, mode)
     for first in range(0, Z, lot):
-        _outer_contacts(first, min(first + lot, Z), q, out_q, out_u, d, law, asked)
-    outer_ribs(q, out_q, out_u, d, law, asked)
+        span, ring = (first, min(first + lot, Z)), outer_of(y, d)
+        _on_ring(span, q, ring, fields(d.outer), fields(d.outer_rib), OUTER_RACE, d, law, asked)
     if mode >= REPORT:
         report_outer(d)
     if mode == OUTER_RING:
         return
     law[POCKETS](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
-    roller_rows(q, u, qd, ud, d, r_q, r_u, mode)
+    roller_rows(y, yd, d, out, mode)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
 
 
 @part
-def set_bodies(q, u, rest_q, rest_u, d, mode):
-    """Attitude and spin of cage and inner ring, poses of the rollers, and no forces yet."""
-    work, pose = fields(d.scratch), fields(d.pose)
+def set_bodies(y, d, mode):
+    """Attitude and spin of the cage, axes and spins of the rings, poses of the rollers, and no
+    forces yet."""
+    work, pose, at = fields(d.scratch), fields(d.pose), fields(d.places)
+    q, u = y[: at.bodies_q], y[at.u : at.bodies_u]
     clear_sums(work.border, d, mode)
-    matrix_from_quaternion(rest_q[Q_QUATERNION:Q_MODES], work.A)
-    put(work.vec[CAGE_SPIN], turned(work.A, xyz(rest_u[CAGE_TURN:MODES])))
-    inner_ring(rest_q[:Q_OUTER], rest_u[:OUTER], work.vec)
+    matrix_from_quaternion(array_from(y, at.cage_q + QUATERNION), work.A)
+    put(work.vec[CAGE_SPIN], turned(work.A, turn_of(array_from(y, at.cage_u))))
+    set_axes(y, d)
     zero(work.wrenches)
-    for i in range(fields(d.bodies).radius.shape[0]):
+    for i in range(at.elements):
         own = of_element(i)
         set_pose(q[own], u[own], pose)
         pose.spot[0] = fields(d.spot).has[i]
@@ -166,29 +139,20 @@ def set_bodies(q, u, rest_q, rest_u, d, mode):
 
 @part
 def report_outer(d):
-    """The races' force on the outer ring, which nothing else has pushed yet."""
-    for c in range(2):
-        fields(d.report).outer_races[c] = fields(d.scratch).border[OUTER + c]
+    """What races and ribs do to the outer ring, which nothing else has pushed yet."""
+    first = fields(d.places).outer_b
+    for c in range(RIGID):
+        fields(d.report).outer_races[c] = fields(d.scratch).border[first + c]
 
 
 @part
-def beside_inner(i, q, ring_q, ring_u, d, at):
-    """The inner ring as the partner ``at`` of roller i, whose pose is taken."""
-    F, vec, qi = fields(d.pose).F, fields(d.scratch).vec, q[of_element(i)]
-    put(at[CENTRE], minus((qi[0], qi[1], 0.0), turned(F, xyz(ring_q))))
-    put(at[AXIS], turned(F, xyz(vec[RING_AXIS])))
-    put(at[VELOCITY], turned(F, xyz(ring_u)))
-    put(at[SPIN], turned(F, xyz(vec[RING_SPIN])))
-
-
-@part
-def beside_outer(i, q, out_q, out_u, d, at):
-    """The same of the outer ring, which moves in its plane only."""
+def beside(i, q, ring, d, at):
+    """A ring as the partner ``at`` of roller i, whose pose is taken."""
     F, qi = fields(d.pose).F, q[of_element(i)]
-    put(at[CENTRE], minus((qi[0], qi[1], 0.0), turned(F, (0.0, out_q[0], out_q[1]))))
-    put(at[AXIS], (1.0, 0.0, 0.0))
-    put(at[VELOCITY], turned(F, (0.0, out_u[0], out_u[1])))
-    put(at[SPIN], (0.0, 0.0, 0.0))
+    put(at[CENTRE], minus((qi[0], qi[1], 0.0), turned(F, xyz(ring.q))))
+    put(at[AXIS], turned(F, xyz(ring.axis)))
+    put(at[VELOCITY], turned(F, xyz(ring.u)))
+    put(at[SPIN], turned(F, xyz(ring.spin)))
 
 
 @part
@@ -200,103 +164,51 @@ def on_ribs(i, at, ribs, d, law, mode):
 
 
 @part
-def inner_ribs(i, at, d, law, mode):
-    """Roller i on the ribs of the inner ring, its partner ``at``."""
-    ribs = fields(d.rib)
+def push_by_ribs(i, at, ribs, b, d, law, mode):
+    """Roller i on the ``ribs`` of a ring, its partner ``at``, whose border begins at b."""
     if on_ribs(i, at, ribs, d, law, mode):
-        add_inner(i, at[CENTRE], d, mode)
+        add_to_ring(i, at[CENTRE], b, d, mode)
         if mode >= REPORT:
             report_ribs(i, ribs.column, fields(d.scratch).sums, fields(d.report))
 
 
 @part
-def _inner_contacts(first, end, q, ring_q, ring_u, d, law, mode):
-    """Rollers ``first`` to before ``end`` on the inner race and its ribs."""
-    pose, pair, rep, work = fields(d.pose), fields(d.pair), fields(d.report), fields(d.scratch)
-    side, rw, memory = fields(d.inner), fields(d.race_work), fields(d.memory)
-    sums, radius = work.sums, fields(d.bodies).radius
-    race_laws, count = Laws(law[RACE_LAW], law[RACE_RUBS]), 0
-    for i in range(first, end):
+def _on_ring(span, q, ring, side, ribs, race, d, law, mode):
+    """Rollers span[0] to before span[1] on the race ``side`` of a ring, and on its ribs."""
+    pose, pair, work, rw = fields(d.pose), fields(d.pair), fields(d.scratch), fields(d.race_work)
+    radius, memory, turn = fields(d.bodies).radius, fields(d.memory).race, ring.q[Q_SPIN]
+    count = 0
+    for i in range(span[0], span[1]):
         take_pose(work.poses[i], pose)
         at = rw.partner[count]
-        beside_inner(i, q, ring_q, ring_u, d, at)
-        inner_ribs(i, at, d, law, mode)
-        onset = memory.race[i, INNER_RACE]
-        if meet_race(count, pose, side, radius[i], ring_q[Q_SPIN], onset, rw):
+        beside(i, q, ring, d, at)
+        if ribs.end > ribs.first:
+            push_by_ribs(i, at, ribs, ring.b, d, law, mode)
+        if meet_race(count, pose, side, radius[i], turn, memory[i, race], rw):
             rw.who[count] = i
             count += 1
-    press_race(count, side, race_laws, rw)
+    press_race(count, side, Laws(law[RACE_LAW], law[RACE_RUBS]), rw)
     for m in range(count):
         i = rw.who[m]
         take_pose(work.poses[i], pose)
-        push_by_race(m, pose, side, radius[i], ring_q[Q_SPIN], rw, pair, mode, sums)
-        add_inner(i, rw.partner[m, CENTRE], d, mode)
+        push_by_race(m, pose, side, radius[i], turn, rw, pair, mode, work.sums)
+        add_to_ring(i, rw.partner[m, CENTRE], ring.b, d, mode)
         if mode >= REPORT:
-            report_race(i, INNER_RACE, sums, rep)
+            report_race(i, race, work.sums, fields(d.report))
 
 
 @part
-def add_inner(i, P, d, mode):
-    """Add the pair's wrench to roller i and to the inner ring, from which P leads to the roller."""
+def add_to_ring(i, P, b, d, mode):
+    """Add the pair's wrench to roller i and to a ring, from which P leads to the roller and whose
+    border begins at b."""
     pair, work, F = fields(d.pair), fields(d.scratch), fields(d.pose).F
-    add_to_element(work.wrenches[i], pair)
-    react(F, work.unit, pair.wrench, xyz(P), work.border, INNER)
+    add_to_element(work.wrenches[i], pair.wrench)
+    react(F, work.unit, pair.wrench, xyz(P), work.border, b)
     if mode == TANGENT:
         copy_into(work.R[0], F)
         copy_into(work.R[1], F)
         shift_matrix(work.R, P, work.S)
-        scatter(pair, work.S, i, INNER, fields(d.tangent), work.T6)
-
-
-@part
-def _outer_contacts(first, end, q, out_q, out_u, d, law, mode):
-    """Rollers on the outer race, whose ring moves in its plane only."""
-    pose, pair, work = fields(d.pose), fields(d.pair), fields(d.scratch)
-    side, rw, memory = fields(d.outer), fields(d.race_work), fields(d.memory)
-    radius, race_laws, count = fields(d.bodies).radius, Laws(law[RACE_LAW], law[RACE_RUBS]), 0
-    for i in range(first, end):
-        take_pose(work.poses[i], pose)
-        at = rw.partner[count]
-        beside_outer(i, q, out_q, out_u, d, at)
-        onset = memory.race[i, OUTER_RACE]
-        if meet_race(count, pose, side, radius[i], 0.0, onset, rw):
-            rw.who[count] = i
-            count += 1
-    press_race(count, side, race_laws, rw)
-    for m in range(count):
-        i = rw.who[m]
-        take_pose(work.poses[i], pose)
-        push_by_race(m, pose, side, radius[i], 0.0, rw, pair, mode, work.sums)
-        add_outer(i, d, mode)
-        if mode >= REPORT:
-            report_race(i, OUTER_RACE, work.sums, fields(d.report))
-
-
-@part
-def add_outer(i, d, mode):
-    """Add the pair's wrench to roller i and to the outer ring."""
-    pair, work, F = fields(d.pair), fields(d.scratch), fields(d.pose).F
-    add_to_element(work.wrenches[i], pair)
-    for c in range(2):
-        work.border[OUTER + c] -= F[1, 1 + c] * pair.wrench[1] + F[2, 1 + c] * pair.wrench[2]
-    if mode == TANGENT:
-        scatter_outer(pair, F, i, fields(d.tangent))
-
-
-@part
-def outer_ribs(q, out_q, out_u, d, law, mode):
-    """Rollers on the outer ring's ribs, if it has any."""
-    pose, work = fields(d.pose), fields(d.scratch)
-    ribs, at = fields(d.outer_rib), fields(d.race_work).partner[0]
-    if ribs.end <= ribs.first:
-        return
-    for i in range(work.poses.shape[0]):
-        take_pose(work.poses[i], pose)
-        beside_outer(i, q, out_q, out_u, d, at)
-        if on_ribs(i, at, ribs, d, law, mode):
-            add_outer(i, d, mode)
-            if mode >= REPORT:
-                report_ribs(i, ribs.column, work.sums, fields(d.report))
+        scatter(pair, work.S, i, b, fields(d.tangent), work.T6)
 
 
 @part
@@ -322,9 +234,12 @@ def report_race(i, side, sums, rep):
 
 
 @part
-def roller_rows(q, u, qd, ud, d, r_q, r_u, mode):
+def roller_rows(y, yd, d, out, mode):
     """Kinematics and momentum of all rollers, whose contacts are summed."""
-    for i in range(fields(d.bodies).radius.shape[0]):
+    at = fields(d.places)
+    q, u, qd, ud = y[: at.bodies_q], y[at.u : at.bodies_u], yd[: at.bodies_q], yd[at.u :]
+    r_q, r_u = out[: at.bodies_q], out[at.u :]
+    for i in range(at.elements):
         own = of_element(i)
         take_pose(fields(d.scratch).poses[i], fields(d.pose))
         _roller_rows(i, q[own], u[own], qd[own], ud[own], d, r_q[own], r_u[own], mode)

@@ -20,6 +20,7 @@ def roller_weights(model: RollerModel, layout: Layout, length: float) -> np.ndar
     u["elements"][:, 3] = float(model.bodies.radius.mean()) / (10.0 * speed)
     u["elements"][:, 4:] = reach / speed
     u["inner"][3] = model.inner.radius / speed
-    arm = np.array([1.0, model.bodies.pitch, model.bodies.pitch]) * model.bodies.free[:3]
+    free = model.inner_ring.free[[0, 4, 5]]
+    arm = np.array([1.0, model.bodies.pitch, model.bodies.pitch]) * free
     q["inner"][[0, 3, 4]], u["inner"][[0, 4, 5]] = arm / length, arm / speed
     return weight

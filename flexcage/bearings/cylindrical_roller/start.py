@@ -25,19 +25,12 @@ from flexcage.contacts.evaluation import REPORT, RESIDUAL, TANGENT
 from flexcage.contacts.land import DRY, NONE
 from flexcage.contacts.pocket_wall import with_offset
 from flexcage.contacts.race import RaceSide
+from flexcage.contacts.state import U_SKEW, U_TILT
 from flexcage.contacts.uneven import is_uneven
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.geometry.kinematics import epicyclic
 from flexcage.system.constraints import OFF, no_rows
-from flexcage.system.data import (
-    FREE_AXIAL,
-    FREE_SKEW,
-    FREE_TILT,
-    INNER_RACE,
-    LOOSE,
-    OUTER_CLEARANCE,
-    OUTER_RACE,
-)
+from flexcage.system.data import INNER_RACE, OUTER_RACE
 from flexcage.system.layout import Layout
 from flexcage.system.left_behind import left_by_ribs
 from flexcage.system.newton import assemble, newton_step
@@ -53,7 +46,6 @@ _BALANCED = 1e-6  # of the load: what may stay unbalanced at last
 _ON_SPOTS = 0.01
 TOUCH = 1e-9  # [m] interference that is only a touch
 STAGES = 8  # steps of a pinching defect's growth
-_CAGE_ROW = 8  # of the border: where the cage's rigid motion begins
 _HOLD = 1e12  # stiffness that holds a coordinate, far above that of any contact
 # longest step of centres [m], and of a roller's tilt and skew [rad], by which its ends move by some
 # 0.4 um: one that is hardly loaded resists so little that longer ones may swing over for ever
@@ -112,17 +104,17 @@ def geometric_guess(model: RollerModel, layout: Layout) -> np.ndarray:
     q["elements"][:, 1] = model.outer.radius - model.bodies.radius
     q["elements"][:, 2] = 2.0 * np.pi * np.arange(Z) / Z
     q["quaternion"][0] = 1.0
-    q["inner"][4] = model.bodies.misalignment
-    if model.bodies.free[FREE_AXIAL]:
+    ring, mount = model.inner_ring, model.outer_ring
+    q["inner"][4] = ring.rest[U_TILT]
+    if ring.free[0]:
         q["inner"][0] = _axial_place(model)
     q["elements"][:, 0] = _between_ribs(model, layout, y)
-    if model.bodies.free[FREE_AXIAL]:
+    if ring.free[0]:
         q["cage"][0] = q["inner"][0] if _guided_by_inner(model) else q["elements"][0, 0]
-    loose = model.bodies.support == LOOSE
-    shift = float(model.bodies.outer[OUTER_CLEARANCE]) if loose else 0.0
-    q["outer"][:] = shift * model.bodies.load_direction  # a ring in its bore lies on the ground
+    shift = mount.clearance if mount.loose else 0.0
+    q["outer"][1:3] = shift * model.bodies.load_direction  # a ring in its bore lies on the ground
     psi = q["elements"][:, 2]
-    q["elements"][:, 1] += q["outer"] @ np.stack([np.cos(psi), np.sin(psi)])
+    q["elements"][:, 1] += q["outer"][1:3] @ np.stack([np.cos(psi), np.sin(psi)])
     play = model.outer.radius - model.inner.radius - 2.0 * model.bodies.radius.min()
     q["inner"][1:3] = (play + shift) * model.bodies.load_direction  # just before first contact
     return y
@@ -138,13 +130,13 @@ def _bearing_ribs(model: RollerModel) -> int:
     they bear none."""
     inner, outer, load = model.rib, model.outer_rib, _axial_load(model)
     ways = {1: inner.end == 2 and outer.first == 0, -1: inner.first == 0 and outer.end == 2}
-    way = int(np.sign(load)) if model.bodies.free[FREE_AXIAL] else 0
+    way = int(np.sign(load)) if model.inner_ring.free[0] else 0
     return way if ways.get(way, False) else 0
 
 
 def _axial_place(model: RollerModel) -> float:
     """Where the axial load moves the inner ring, on the shaft's spring or against ribs [m]."""
-    load, stiffness, way = _axial_load(model), model.bodies.spring[0, 0], _bearing_ribs(model)
+    load, stiffness, way = _axial_load(model), model.inner_ring.stiffness[0], _bearing_ribs(model)
     by_spring = load / stiffness if stiffness > 0.0 else 0.0
     if not way:
         return by_spring
@@ -179,11 +171,8 @@ class _Frictionless:
         model = bearing.data.model
         land = min(model.land.kind, DRY) if lands else NONE
         still = model._replace(
-            bodies=model.bodies._replace(
-                gravity=np.zeros(3),
-                drag=np.zeros(2),
-                spring=model.bodies.spring * np.array([1.0, 0.0]),
-            ),
+            bodies=model.bodies._replace(gravity=np.zeros(3), drag=np.zeros(2)),
+            inner_ring=model.inner_ring._replace(damping=np.zeros(6)),
             inner=model.inner._replace(rolling=np.zeros(2)),
             outer=model.outer._replace(rolling=np.zeros(2)),
             land=model.land._replace(kind=land),
@@ -210,16 +199,16 @@ class _Frictionless:
 
     def step(self, y, yd, r, alpha: float, held: Held) -> np.ndarray:
         """Displacement step dq of the implicit Euler step 1/alpha from rest."""
-        tangent = self.data.work.tangent
+        tangent, at = self.data.work.tangent, self.data.places
         self._evaluate(y, yd, TANGENT)
         roller, row = np.nonzero(held.rollers)
         tangent.Krr[roller, row, row] += _HOLD
-        row = _CAGE_ROW + np.flatnonzero(held.cage)
+        row = at.cage_b + np.flatnonzero(held.cage)
         tangent.Kbb[row, row] += _HOLD
-        if not assemble(alpha, self.data.model.bodies, tangent, self.data.matrix):
+        if not assemble(alpha, self.data.model.bodies, at, tangent, self.data.matrix):
             raise RunFailed("the start's equilibrium has a singular matrix; is a body massless?")
         r = r.copy()
-        newton_step(alpha, y, r, tangent, self.data.matrix)
+        newton_step(alpha, y, r, at, tangent, self.data.matrix)
         return r
 
 
@@ -267,7 +256,7 @@ def _not_assembled(
 
 def _others(model: RollerModel) -> str:
     """What besides defects may be too large for an equilibrium."""
-    soft = np.any(model.bodies.moments) and np.any(model.bodies.free[[FREE_SKEW, FREE_TILT]])
+    soft = np.any(model.bodies.moments) and np.any(model.inner_ring.free[[U_SKEW, U_TILT]])
     moment = "the moment for such a load.tilt_stiffness, " if soft else ""
     return f"the load, {moment}the speed, the misalignment or the clearance"
 
@@ -314,12 +303,14 @@ def _held(tight: np.ndarray, spotted: np.ndarray, *, along: bool) -> Held:
 
 
 def _measure(layout: Layout, r: np.ndarray, lever: float, held: Held, free: np.ndarray) -> float:
-    """Largest unbalanced force [N] (moments over a lever) of the rows that are free."""
+    """Largest unbalanced force [N] (moments over a lever) of the rows that are free; ``free`` (3,):
+    is the inner ring free axially, in skew, in tilt?"""
     u = {k: v.copy() for k, v in layout.u(r).items()}
     u["elements"][:, 3:] /= lever
-    u["inner"][[0, 4, 5]] *= free[:3]  # the others are constrained: their multipliers balance them
+    u["inner"][[0, 4, 5]] *= free  # the others are constrained: their multipliers balance them
     u["inner"][3] = 0.0
     u["inner"][4:] /= lever
+    u["outer"][3:] /= lever
     u["omega"] /= 10.0 * lever
     names = u if held.cage.any() else ("elements", "inner", "outer")  # nothing holds a free cage
     return max(float(np.abs(u[k]).max()) for k in names if u[k].size)
@@ -335,8 +326,8 @@ def _equilibrate(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np
     load = _load(model)
     layout = system.bearing.layout
     nq, n_qu = layout.n_q, layout.n_q + layout.n_u
-    bodies = model.bodies
-    lever, loose = float(bodies.radius.mean()), np.flatnonzero(bodies.free[:3])
+    free = model.inner_ring.free[[0, U_SKEW, U_TILT]]
+    lever, loose = float(model.bodies.radius.mean()), np.flatnonzero(free)
     alpha, last = 1e5, np.inf
     for _ in range(400):
         r = system.residual(y, yd)
@@ -344,7 +335,7 @@ def _equilibrate(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np
         rows["elements"][held.rollers] = 0.0
         rows["cage"][held.cage[:3]] = 0.0
         rows["omega"][held.cage[3:]] = 0.0
-        size = _measure(layout, r, lever, held, bodies.free) / load
+        size = _measure(layout, r, lever, held, free) / load
         if size < _SMALL:
             break
         alpha = max(alpha * 0.5, 500.0) if size <= 3.0 * last else min(alpha * 10.0, 1e6)
@@ -471,8 +462,8 @@ def roller_start_between_bent_rings(
     rings = held_rings(bearing.rings)
     stands = standing(bearing.layout.elements, model.swings, bearing.rings.at_start)
     still = lands_follow(model._replace(rings=rings, swings=stands))
-    held.data = bearing.data._replace(model=still)
     held.layout = replace(bearing.layout, ring_modes=0)
+    held.data = bearing.data._replace(model=still, places=held.layout.places)
     start = roller_start(held, limit_force=limit_force, statics=None, advance=advance)
     _Frictionless(held, model.pocket.offset).residual(start.y, start.yd)
     y, yd = bearing.rings.begun(start.y, bearing.layout), np.zeros(bearing.layout.size)

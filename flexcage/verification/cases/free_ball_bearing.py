@@ -56,7 +56,8 @@ def of_balls_and_rings(bearing: Bearing, ds: Any) -> tuple[np.ndarray, np.ndarra
     linear = mass * across.sum(axis=2).T
     spin = ds["element_omega"].sel(spin_axis="axial").values
     angular = (mass * r * around + inertia * spin).sum(axis=1)
-    for name, m in (("inner", model.bodies.ring[0]), ("outer", model.bodies.outer[0])):
+    for name, ring in (("inner", model.inner_ring), ("outer", model.outer_ring)):
+        m = ring.inertia[0]
         at, v = (ds[f"{name}_{what}"].values[:, 1:] for what in ("position", "velocity"))
         linear = linear + m * v
         angular = angular + m * (at[:, 0] * v[:, 1] - at[:, 1] * v[:, 0])

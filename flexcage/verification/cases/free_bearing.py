@@ -61,7 +61,8 @@ def of_rollers_and_rings(bearing: Bearing, ds: Any) -> tuple[np.ndarray, np.ndar
     skew, tilt = np.moveaxis(ds["element_tilt"].values, -1, 0)
     shares = (np.cos(skew) * np.cos(tilt), -np.cos(skew) * np.sin(tilt), np.sin(skew))
     angular = (mass * r * around + (spin * np.stack(shares, axis=-1)).sum(axis=-1)).sum(axis=1)
-    for name, m in (("inner", model.bodies.ring[0]), ("outer", model.bodies.outer[0])):
+    for name, ring in (("inner", model.inner_ring), ("outer", model.outer_ring)):
+        m = ring.inertia[0]
         at, v = (ds[f"{name}_{what}"].values[:, 1:] for what in ("position", "velocity"))
         linear = linear + m * v
         angular = angular + m * (at[:, 0] * v[:, 1] - at[:, 1] * v[:, 0])

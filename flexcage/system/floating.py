@@ -1,0 +1,136 @@
+"""The cage: rows of a body in a floating frame, translations in space, rotations in the body."""
+
+from __future__ import annotations
+
+from flexcage.bodies.floating_frame import inertia_terms, modal_product
+from flexcage.contacts.evaluation import REPORT, TANGENT
+from flexcage.core.jit import VECTORISED, array_from, fields, part
+from flexcage.core.rotation import quaternion_rate
+from flexcage.core.vectors import RIGID, TURN, minus, put, turned_back, xyz
+from flexcage.system.data import GRAVITY, KINETIC, MODAL_DAMPING, STRAIN
+from flexcage.system.layout import FRAME, QUATERNION
+
+
+@part
+def modes_at(first, count):
+    """Where so many modes are among coordinates or velocities, the first of them at ``first``."""
+    return slice(first, first + count)
+
+
+@part(fastmath=VECTORISED)
+def cage_equations(y, yd, d, out, mode):
+    """Rows of the cage; what contacts push is in ``Scratch.border``."""
+    data, tan, rep, work = fields(d.cage), fields(d.tangent), fields(d.report), fields(d.scratch)
+    at, frame, A, border = fields(d.places), fields(d.frame), work.A, work.border
+    nm, b = at.modes, at.cage_b
+    quat, qf = array_from(y, at.cage_q + QUATERNION), y[modes_at(at.cage_q + FRAME, nm)]
+    Vc, wb = array_from(y, at.cage_u), array_from(y, at.cage_u + TURN)
+    qfd, modes = y[modes_at(at.cage_u + RIGID, nm)], yd[modes_at(at.cage_u + RIGID, nm)]
+    qd, ud = array_from(yd, at.cage_q), array_from(yd, at.cage_u)
+    r_q, r_u = array_from(out, at.cage_q), array_from(out, at.cage_u)
+    acc, v, product = frame.w[0], frame.w[1], frame.w[2]
+    M, H, h = frame.rigid, frame.coupled, frame.h
+    inertia_terms(data, wb, qf, qfd, frame)
+    rate = work.S[0]
+    quaternion_rate(quat, wb, rate)
+    for c in range(3):
+        r_q[c] = qd[c] - Vc[c]
+    for c in range(4):
+        r_q[QUATERNION + c] = qd[QUATERNION + c] - rate[c]
+    for m in range(nm):
+        r_q[FRAME + m] = qd[FRAME + m] - qfd[m]
+    gb = turned_back(A, xyz(fields(d.bodies).gravity))
+    # gravity is an acceleration of the whole body
+    put(acc, minus(turned_back(A, xyz(ud)), gb))
+    for c in range(3):
+        acc[TURN + c] = ud[TURN + c]
+    for k in range(6):
+        x = h[k]
+        for c in range(6):
+            x += M[k, c] * acc[c]
+        for m in range(nm):
+            x += H[k, m] * modes[m]
+        v[k] = x
+    for c in range(3):
+        x = A[c, 0] * v[0] + A[c, 1] * v[1] + A[c, 2] * v[2]
+        r_u[c] = x - border[b + c]
+        r_u[TURN + c] = v[TURN + c] - border[b + TURN + c]
+    row_of = out[modes_at(at.cage_u + RIGID, nm)]
+    for m in range(nm):
+        row_of[m] = h[RIGID + m] - border[b + RIGID + m]
+        for c in range(6):
+            row_of[m] += H[c, m] * acc[c]
+    modal_product(data.mff, data.plain, modes, product)
+    for m in range(nm):
+        row_of[m] += product[m]
+    modal_product(data.kff, data.plain, qf, product)
+    for m in range(nm):
+        row_of[m] += product[m]
+    modal_product(data.dff, data.plain, qfd, product)
+    for m in range(nm):
+        row_of[m] += product[m]
+    if mode == TANGENT:
+        _slopes(data, A, M, H, b, tan)
+    elif mode >= REPORT:
+        for m in range(nm):  # the product is that of the damping
+            rep.power[MODAL_DAMPING] -= qfd[m] * product[m]
+        put(v, turned_back(A, xyz(Vc)))
+        for c in range(3):
+            v[TURN + c] = wb[c]
+        for k in range(6):
+            momentum = 0.0
+            for m in range(nm):
+                momentum += H[k, m] * qfd[m]
+            if k < 3:  # what gravity does on the body's first moment of mass
+                rep.power[GRAVITY] += gb[k] * momentum
+            rep.energy[KINETIC] += v[k] * momentum
+            for c in range(6):
+                rep.energy[KINETIC] += 0.5 * v[k] * M[k, c] * v[c]
+                if c < 3:
+                    rep.power[GRAVITY] += v[k] * M[k, c] * gb[c]
+        modal_product(data.mff, data.plain, qfd, product)
+        for m in range(nm):
+            rep.energy[KINETIC] += 0.5 * qfd[m] * product[m]
+        modal_product(data.kff, data.plain, qf, product)
+        for m in range(nm):
+            rep.energy[STRAIN] += 0.5 * qf[m] * product[m]
+
+
+@part(fastmath=VECTORISED)
+def _slopes(data, A, M, H, b, tan):
+    """Mass, stiffness and damping of the cage, whose rows of the border begin at b."""
+    nm, turn, modes = H.shape[1], b + TURN, b + RIGID
+    for a in range(3):  # translations to space
+        for e in range(3):
+            x = y = 0.0
+            for c in range(3):
+                x += A[a, c] * M[c, TURN + e]
+                y += M[TURN + e, c] * A[a, c]
+            tan.Mbb[b + a, b + e] = data.mass if a == e else 0.0
+            tan.Mbb[b + a, turn + e] = x
+            tan.Mbb[turn + e, b + a] = y
+            tan.Mbb[turn + a, turn + e] = M[TURN + a, TURN + e]
+    for m in range(nm):
+        for a in range(3):
+            x = A[a, 0] * H[0, m] + A[a, 1] * H[1, m] + A[a, 2] * H[2, m]
+            tan.Mbb[b + a, modes + m] = tan.Mbb[modes + m, b + a] = x
+            tan.Mbb[turn + a, modes + m] = tan.Mbb[modes + m, turn + a] = H[TURN + a, m]
+        for l in range(nm):
+            tan.Mbb[modes + m, modes + l] = data.mff[m, l]
+            tan.Kbb[modes + m, modes + l] += data.kff[m, l]
+            tan.Cbb[modes + m, modes + l] += data.dff[m, l]
+
+
+@part(fastmath=VECTORISED)
+def push_modes(data, i, pw, modes):
+    """Generalised forces of pocket i's station forces on the cage's ``modes`` (n,)."""
+    for f in range(pw.st.shape[0]):
+        if pw.normal[f] <= 0.0:
+            continue
+        for s in range(pw.st.shape[1]):
+            x, y, z = pw.st[f, s, 0], pw.st[f, s, 1], pw.st[f, s, 2]
+            if x == 0.0 and y == 0.0 and z == 0.0:
+                continue
+            shape = data.phi[i, f, s]
+            for m in range(modes.shape[0]):
+                modes[m] += x * shape[0, m] + y * shape[1, m] + z * shape[2, m]
