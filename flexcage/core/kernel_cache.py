@@ -43,7 +43,7 @@ class KernelCache(NullCache):
         self._kernel, self._folder = kernel, folder
         function = kernel.py_func
         self._name = class_name(function)
-        room, _, module = function.__module__.rpartition(".")
+        room, _, module = (function.__module__ or "nowhere").rpartition(".")
         self._sub = room or module
         self._stem = f"{module}.{function.__qualname__}".replace("<", "").replace(">", "")
         file = Path(function.__code__.co_filename).resolve()
@@ -58,6 +58,8 @@ class KernelCache(NullCache):
 
     def _key(self, signature: Any, codegen: Any) -> str | None:
         """What the kernel is for a signature on this processor; None if nobody can say."""
+        if self._kernel.py_func.__module__ is None:
+            return None  # numba reads no such function back
         more = (repr(codegen.magic_tuple()), contents_key() if self._users_own else "")
         try:
             return kernel_key(self._kernel, signature, *more)

@@ -267,6 +267,24 @@ def test_what_nobody_can_judge_is_compiled_in_every_process(warm, tmp_path):
         assert "'from_c.of_c' is compiled in every process" in told
 
 
+@pytest.mark.parametrize(
+    "names, kept", [({"__name__": "__main__"}, 1), ({}, 0)], ids=["at a prompt", "of no module"]
+)
+def test_a_function_without_a_file(warm, tmp_path, names, kept):
+    """Its content is known without a file; numba cannot read back one of no module."""
+    code = (
+        "from numba import float64\n"
+        "from flexcage.core.jit import kernel_of\n"
+        f"names = {names}\n"
+        "exec('def typed(x): return 2.0 * x', names)\n"
+        "typed = kernel_of(names['typed'], float64(float64))\n"
+        "print(typed(2.0), sum(typed.stats.cache_hits.values()))\n"
+    )
+    for hits in (0, kept):
+        found = said_and_told(warm, code, tmp_path, tmp_path / "cache")
+        assert found == (f"4.0 {hits}\n", "")
+
+
 def test_a_users_file_called_as_one_of_pythons_is_his(warm, tmp_path):
     """Python's own modules count by the version of Python alone."""
     found = []
