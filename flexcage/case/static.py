@@ -15,6 +15,7 @@ from typing import Any, ClassVar, Self
 
 from flexcage.case.checks import check_static_case
 from flexcage.case.files import file_paths, with_files
+from flexcage.case.frozen import explain
 from flexcage.case.presets import NAMED
 from flexcage.case.read import read_case
 from flexcage.case.tables import ALIASES, as_pairs, with_preset, without_aliases, words_of_text
@@ -69,6 +70,7 @@ class StaticCase:
     _in_motion = False  # does it read all of [mount], or the housing's body alone?
 
     def __post_init__(self) -> None:
+        explain(self)
         self.check()
 
     def check(self) -> None:
@@ -78,9 +80,8 @@ class StaticCase:
 
     @property
     def rings_bend(self) -> bool:
-        """Does a ring bend or, in a run, move in a housing that yields?"""
-        carried = self._in_motion and bool(self.mount.body)
-        return self.inner_ring.bends or self.outer_ring.bends or carried
+        """Does a ring bend?"""
+        return self.inner_ring.bends or self.outer_ring.bends
 
     @property
     def speed(self) -> float:
@@ -134,11 +135,12 @@ class StaticCase:
         kind: Any = type(self)
         bare = _unchecked(kind)(**_values(self))
         for where, new in with_their_choice(bare, pairs).items():
-            if where == "bearing.preset":
+            if where in ("bearing.preset", "preset"):
                 raise InputError(
-                    "bearing.preset cannot be replaced in a finished case; load it with the "
-                    "other preset instead.",
-                    where=where,
+                    "bearing.preset cannot be replaced in a case that has its values already; "
+                    "write a case for each preset, and of a study one study for each case.",
+                    where="bearing.preset",
+                    value=new,
                 )
             new = bare._prepared(where, new, binder)
             with words_of_text():

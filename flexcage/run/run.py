@@ -15,7 +15,7 @@ import numpy as np
 from flexcage.cages import cage_type_of, riveted_cages
 from flexcage.case import Case
 from flexcage.core import html
-from flexcage.core.binding import Binder, check_spec, expect
+from flexcage.core.binding import Binder, check_spec, expect, path_of
 from flexcage.core.errors import EnvironmentLacks, InputError
 from flexcage.core.output_folders import check_no_file
 from flexcage.core.progress import Silent
@@ -308,7 +308,7 @@ class Run:
         """
         from flexcage.run.tables import write_table
 
-        return write_table(self, Path(path), variables, force=force)
+        return write_table(self, path_of(path, "path"), variables, force=force)
 
     def draw(
         self,
@@ -336,12 +336,13 @@ class Run:
         from flexcage.run.pictures import draw_pictures
 
         check_format(format)
-        check_no_file(Path(folder))
+        folder = path_of(folder, "folder")
+        check_no_file(folder)
         names = [only] if isinstance(only, str) else list(only)
         given = {"view": view, "stress_limit": stress_limit, "scale": scale}
         look = Binder(si=True).bind(Look, given, "")
         paths = self.stages(
-            "pictures", draw_pictures, self, Path(folder), animate=animate, look=look, only=names,
+            "pictures", draw_pictures, self, folder, animate=animate, look=look, only=names,
             format=format,
         )  # fmt: skip
         if self.effort is not None:
