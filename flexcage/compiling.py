@@ -11,7 +11,7 @@ from pathlib import Path
 
 from flexcage.case import Case, load_case, load_extension
 from flexcage.case.extensions import sources
-from flexcage.core import jit
+from flexcage.core import jit, kernel_marks
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.reduction import CageReduction
 from flexcage.stages import bearing_in_motion, bearing_to_compile
@@ -49,7 +49,7 @@ def begin_compiling(case: Case) -> Compiling | None:
 
     Meanwhile the cage is meshed and reduced. ``build_bearing`` helps, and waits for it.
     """
-    if jit.kernels_cached(kernels_of(case)):
+    if kernel_marks.kernels_cached(kernels_of(case)):
         return None
     log.info("compiling the kernels for the first time: 20 to 30 seconds, once")
     pieces, end = os.pipe()
@@ -101,5 +101,6 @@ def build_bearing(
         for piece in bearing.pieces():  # what the helper took: read from disk, or compiled here
             piece()
     bearing.evaluate  # noqa: B018
-    jit.mark_compiled(kernels_of(case))
+    if compiling is not None:
+        kernel_marks.mark_compiled(kernels_of(case))
     return bearing

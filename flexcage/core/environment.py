@@ -20,6 +20,7 @@ from math import isinf
 
 from flexcage.core.cache import cache_root, check_writable
 from flexcage.core.errors import install, is_full
+from flexcage.core.kernel_files import damaged, kernel_cache_dir
 from flexcage.core.memory import total_memory
 from flexcage.core.trust import distrusted
 
@@ -191,10 +192,8 @@ def _room_for(error: OSError) -> str:
 
 
 def _kernel_cache() -> Finding:
-    """Compiled kernels that cannot be read; importing numba takes its second here."""
-    from flexcage.core.kernel_cache import damaged
-
-    folder = cache_root() / "kernels"
+    """Compiled kernels that cannot be read."""
+    folder = kernel_cache_dir()
     if reason := distrusted(folder):
         detail = f"{folder}: {reason}; kernels are compiled anew in every run"
         remedy = "set FLEXCAGE_CACHE_DIR to a folder of your own"

@@ -1,9 +1,6 @@
-"""Compilation of kernels: options in one place, and a cache keyed by all kernel sources.
+"""Compilation of kernels: options in one place, and boxes by which kernels receive arrays.
 
-numba's own cache looks only at the file of the compiled function: a change in a callee in
-another file goes unseen and old numbers come back. So the cache folder carries a hash of
-every source file of the package that defines kernels, and kernels of the user's own one of his
-files (``kernel_cache``).
+Kernels are kept on disk (``kernel_cache``), each under a key of what it was made from.
 """
 
 from __future__ import annotations
@@ -15,28 +12,14 @@ import warnings
 from pathlib import Path
 from typing import Any
 
+import numba
 import numpy as np
-
-from flexcage.core.cache import cache_root
-from flexcage.core.garbage import uncollected
-from flexcage.core.sources import kernel_sources, source_hash
-
-
-def kernel_cache_dir() -> Path:
-    """Folder in which numba keeps compiled kernels of exactly these sources."""
-    return cache_root() / "kernels" / source_hash(kernel_sources())
-
-
-if "NUMBA_CACHE_DIR" not in os.environ:
-    os.environ["NUMBA_CACHE_DIR"] = str(kernel_cache_dir())
-
-import numba  # noqa: E402  (its cache folder must be known first)
-from llvmlite import ir  # noqa: E402
-from numba import types  # noqa: E402
-from numba.core import cgutils  # noqa: E402
-from numba.core.imputils import impl_ret_borrowed, lower_getattr_generic  # noqa: E402
-from numba.core.typing.templates import AttributeTemplate, infer_getattr  # noqa: E402
-from numba.extending import (  # noqa: E402
+from llvmlite import ir
+from numba import types
+from numba.core import cgutils
+from numba.core.imputils import impl_ret_borrowed, lower_getattr_generic
+from numba.core.typing.templates import AttributeTemplate, infer_getattr
+from numba.extending import (
     NativeValue,
     intrinsic,
     models,
@@ -45,14 +28,14 @@ from numba.extending import (  # noqa: E402
     unbox,
 )
 
-from flexcage.core.kernel_cache import KernelCache, KernelFolder  # noqa: E402
-from flexcage.core.kernel_values import short_name  # noqa: E402
-from flexcage.core.numba_changes import PART_NAME, own_compilation  # noqa: E402
-from flexcage.core.trust import make_private  # noqa: E402
-from flexcage.core.users_files import contents_key  # noqa: E402
+from flexcage.core.garbage import uncollected
+from flexcage.core.kernel_cache import KernelCache
+from flexcage.core.kernel_files import KernelFolder, kernel_cache_dir
+from flexcage.core.kernel_values import short_name
+from flexcage.core.numba_changes import PART_NAME, own_compilation
 
-numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]  # type: ignore[attr-defined]
-_folder = KernelFolder(Path(os.environ["NUMBA_CACHE_DIR"]))
+#: Where kernels are kept; numba's own variable puts them, and what numba keeps, elsewhere.
+kernel_folder = KernelFolder(Path(os.environ.get("NUMBA_CACHE_DIR") or kernel_cache_dir()))
 # laws are passed to kernels as first-class functions, which numba calls experimental
 warnings.simplefilter("ignore", numba.errors.NumbaExperimentalFeatureWarning)
 
@@ -90,7 +73,7 @@ def _jitted(function: Any, signature: Any, options: dict[str, Any]) -> Any:
         return made
     made.compile = _as_our_own(made.compile)
     if options["cache"]:
-        made._cache = KernelCache(made.py_func, _folder)
+        made._cache = KernelCache(made, kernel_folder)
     if signature is not None:
         made.compile(signature)
         made.disable_compile()
@@ -108,13 +91,8 @@ def _as_our_own(compile_for: Any) -> Any:
 
 
 def kernel_of(function: Any, signature: Any) -> Any:
-    """A kernel of a user's function for one signature, on disk if it has a file."""
-    try:
-        return kernel(signature)(function)
-    except RuntimeError as exc:
-        if isinstance(exc, numba.errors.NumbaError) or "cannot cache" not in str(exc):
-            raise
-        return kernel(signature, cache=False)(function)  # typed at a prompt: there is no file
+    """A kernel of a user's function for one signature."""
+    return kernel(signature)(function)
 
 
 _NO_REASON = ("Failed in nopython mode", "- Resolution failure")
@@ -169,44 +147,11 @@ def compiled(function: Any, signature: Any, options: dict[str, Any] = LEAN) -> A
     return _compiled[key]
 
 
-def _mark(folder: Path, what: str) -> Path:
-    """The file that says: in this folder are all kernels that a run of the family ``what`` needs,
-    of exactly these sources and of the user's files that are loaded."""
-    key = contents_key()
-    return folder / (f"compiled-{what}-{key}" if key else f"compiled-{what}")
-
-
-def kernels_cached(what: str) -> bool:
-    """True if nothing is left to be compiled, or nothing ever is."""
-    if numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
-        return True
-    return any(_mark(place, what).exists() for place in _folder.places)
-
-
-def compiling_lock(what: str) -> Path | None:
-    """A file by which processes agree who compiles; None where none can be written."""
-    _folder.ensure_writable()
-    place = _folder.place
-    return None if place is None else _mark(place, what).with_suffix(".lock")
-
-
 def cache_environment() -> dict[str, str]:
     """Environment variables by which another process finds the same cache, which can be written
     if there is any way."""
-    _folder.ensure_writable()
-    return {"NUMBA_CACHE_DIR": str(_folder.place or _folder.path)}
-
-
-def mark_compiled(what: str) -> None:
-    """Say that all kernels are on disk, if they are."""
-    place = _folder.place
-    if kernels_cached(what) or place is None:
-        return
-    try:
-        make_private(place)
-        _mark(place, what).touch()
-    except OSError as error:
-        _folder.refuse(error)
+    kernel_folder.ensure_writable()
+    return {"NUMBA_CACHE_DIR": str(kernel_folder.place or kernel_folder.path)}
 
 
 class Box:

@@ -1,283 +1,129 @@
-"""Compiled kernels on disk, in a cache that never ends a run.
+"""Compiled kernels on disk, in a cache that never ends a run and never gives an old kernel back.
 
-numba's own cache raises whatever the disk or a damaged file gives it, and where it cannot write it
-keeps kernels beside the sources, where a change in a callee goes unseen. Here every entry carries
-a checksum: one that cannot be read is removed, and its kernel compiled anew. A folder that cannot
-be written is read as far as it goes; what is compiled is then kept in a temporary folder, as long
-as the process lives. So it is where another user may write to the folder (``trust``).
+numba's own cache sees a change in the compiled function's file alone, raises whatever the disk or a
+damaged file gives it, and where it cannot write it keeps kernels beside the sources. Here a file's
+name has a key of all that the kernel was made from (``kernel_keys``), so that what is edited is not
+found; one that cannot be read is removed, and its kernel compiled anew (``kernel_files``).
 
-Kernels of the user's own lie in a folder for what his files hold (``users_files``). A kernel of
-flexcage's for types of the user's own is found by their names: numba would keep the types, and a
-process that has not loaded their module could read none of the function's kernels.
+A user's own kernels have a key of the files that he loaded (``users_files``) as well.
 """
 
 from __future__ import annotations
 
-import atexit
 import logging
-import os
 import pickle
-import pickletools
-import shutil
-import tempfile
-import zlib
 from collections.abc import Iterator
-from contextlib import suppress
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 from numba import types
-from numba.core.caching import (
-    CompileResultCacheImpl,
-    FunctionCache,
-    IndexDataCacheFile,
-    UserProvidedCacheLocator,
-)
+from numba.core.caching import NullCache
+from numba.core.compiler import CompileResult
+from numba.core.dispatcher import Dispatcher
 from numba.core.serialize import dumps
-from numba.core.typing import Signature
 
-from flexcage.core.cache import check_writable, tell_unwritable, trusted
-from flexcage.core.trust import distrusted_file, make_private
+from flexcage.core import kernel_files
+from flexcage.core.kernel_files import SUFFIX, KernelFolder
+from flexcage.core.kernel_keys import kernel_key
+from flexcage.core.type_texts import class_name, parts_of
 from flexcage.core.users_files import contents_key
 
 log = logging.getLogger(__name__)
 
 _PACKAGE = Path(__file__).resolve().parents[1]
-_OURS = "-checked"  # in the names of files, which numba's own cache may keep in the same folder
+#: Names of functions and NamedTuples, as ``kernel_keys.class_name``, of which kernels that this
+#: process has read or written were compiled.
+used: set[str] = set()
 
 
-_spares: list[Path] = []  # temporary folders of this process
+class KernelCache(NullCache):
+    """The cache of one kernel, in a ``KernelFolder``."""
 
-
-@atexit.register
-def remove_spares() -> None:
-    """Remove the temporary folders, as the process ends."""
-    for folder in _spares:
-        shutil.rmtree(folder, ignore_errors=True)
-
-
-class KernelFolder:
-    """Where kernels are read and written: the cache's folder, then a temporary one, then none."""
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        self._spare: Path | None = None
-        self._given_up = False
-        self._told_damage = False
-        self._trusted: bool | None = None
+    def __init__(self, kernel: Dispatcher, folder: KernelFolder) -> None:
+        self._kernel, self._folder = kernel, folder
+        function = kernel.py_func
+        self._name = class_name(function)
+        room, _, module = (function.__module__ or "nowhere").rpartition(".")
+        self._sub = room or module
+        self._stem = f"{module}.{function.__qualname__}".replace("<", "").replace(">", "")
+        file = Path(function.__code__.co_filename).resolve()
+        self._users_own = not file.is_relative_to(_PACKAGE)
+        self._missing: set[str] = set()  # keys of what was looked for and not found
+        self._told = False
 
     @property
-    def places(self) -> tuple[Path, ...]:
-        """Folders in which a kernel may lie, that nobody else can write to."""
-        if self._trusted is None:
-            self._trusted = trusted(self.path)
-            if not self._trusted:
-                self._take_spare()
-        own = (self.path,) if self._trusted else ()
-        return own if self._spare is None else (self._spare, *own)
+    def cache_path(self) -> str:
+        """Where kernels are."""
+        return str(self._folder.path)
 
-    @property
-    def place(self) -> Path | None:
-        """Folder to write to; None if there is none."""
-        places = self.places
-        return None if self._given_up else places[0]
-
-    def ensure_writable(self) -> None:
-        """Take a temporary folder if the cache's cannot be written."""
-        if self.place is None or self._spare is not None:
-            return
+    def _key(self, signature: Any, codegen: Any) -> str | None:
+        """What the kernel is for a signature on this processor; None if nobody can say."""
+        if self._kernel.py_func.__module__ is None:
+            return None  # numba reads no such function back
+        more = (repr(codegen.magic_tuple()), contents_key() if self._users_own else "")
         try:
-            check_writable(self.path)
-        except OSError as error:
-            self.refuse(error)
+            return kernel_key(self._kernel, signature, *more)
+        except Exception as unknown:  # a user's objects may do anything when they are looked at
+            log.log(
+                logging.DEBUG if self._told else logging.WARNING,
+                "the kernel '%s' is compiled in every process: it takes in %s, of which flexcage "
+                "cannot say whether it has changed", self._stem, unknown,
+            )  # fmt: skip
+            self._told = True
+            return None
 
-    def refuse(self, error: OSError) -> bool:
-        """Write elsewhere from now on; False if there is no other place."""
-        if self._spare is not None or self._given_up:
-            self._given_up = True
-            return False
-        tell_unwritable(self.path, error)
-        return self._take_spare()
-
-    def _take_spare(self) -> bool:
-        """Write to a temporary folder from now on; False if there is none."""
-        try:
-            self._spare = Path(tempfile.mkdtemp(prefix="flexcage-kernels-"))
-        except OSError:
-            self._given_up = True
-            return False
-        _spares.append(self._spare)
-        return True
-
-    def tell_damage(self, name: str, error: Exception) -> None:
-        """Say once that kernels could not be read."""
-        reason = str(error) or type(error).__name__
-        level = logging.DEBUG if self._told_damage else logging.WARNING
-        log.log(
-            level, "the compiled kernel '%s' in %s cannot be read (%s); it is removed and compiled "
-            "anew, as is any other that is damaged", name, self.path, reason,
-        )  # fmt: skip
-        self._told_damage = True
-
-
-class _Checked(IndexDataCacheFile):
-    """Files of one function, each entry with its checksum."""
-
-    def save(self, key: Any, data: Any) -> None:
-        content = dumps(data)
-        super().save(key, _sealed(content))
-
-    def load(self, key: Any) -> Any:
-        entry = super().load(key)
-        return None if entry is None else pickle.loads(_opened(entry))
-
-    def check_owner(self) -> None:
-        """ValueError if a file of the function's was not put there by this user."""
-        for path in self._paths():
-            with suppress(FileNotFoundError):
-                if distrusted_file(path):
-                    raise ValueError("it belongs to another user")
-
-    def _paths(self) -> list[Path]:
-        index = Path(self._index_path)
-        return [index, *index.parent.glob(f"{index.stem}.*.nbc")]
-
-    def remove(self) -> None:
-        """Remove the function's files, as far as they can be."""
-        for path in self._paths():
-            try:
-                path.unlink(missing_ok=True)
-            except OSError:
-                continue
-
-
-def _sealed(content: bytes) -> tuple[int, bytes]:
-    return zlib.crc32(content), content
-
-
-def _opened(entry: Any) -> bytes:
-    checksum, content = entry
-    if zlib.crc32(content) != checksum:
-        raise ValueError("its checksum differs")
-    return content
-
-
-class _Locator(UserProvidedCacheLocator):
-    """Names the files of a function; ``KernelCache`` chooses their folder."""
-
-    @classmethod
-    def from_function(cls, py_func: Any, py_file: str) -> _Locator | None:
-        return cls(py_func, py_file) if os.path.exists(py_file) else None
-
-    def ensure_cache_path(self) -> None:
-        """Left to ``KernelCache``."""
-
-
-class _Impl(CompileResultCacheImpl):
-    _locator_classes = [_Locator]
-
-
-def _outer_modules(kind: Any) -> Iterator[str]:
-    """Modules outside flexcage that define tuples in a numba type, or a signature, which a user's
-    family has among its own."""
-    if isinstance(kind, types.BaseNamedTuple):
-        module = kind.instance_class.__module__
-        if module.partition(".")[0] != __name__.partition(".")[0]:
-            yield module
-    if isinstance(kind, Signature):
-        kind = kind.args
-    for part in kind if isinstance(kind, tuple | types.BaseTuple) else ():
-        yield from _outer_modules(part)
-    if isinstance(held := getattr(kind, "held", None), types.Type):
-        yield from _outer_modules(held)
-
-
-class KernelCache(FunctionCache):
-    """numba's cache of one function, in a ``KernelFolder``."""
-
-    _impl_class = _Impl
-
-    def __init__(self, function: Any, folder: KernelFolder) -> None:
-        super().__init__(function)
-        self._folder = folder
-        file = function.__code__.co_filename
-        self._sub = self._impl.locator.get_suitable_cache_subpath(file)
-        self._users_own = not Path(file).resolve().is_relative_to(_PACKAGE)
-        self._stamp = self._impl.locator.get_source_stamp()
-
-    def _folder_in(self, place: Path) -> Path:
-        key = contents_key() if self._users_own else ""
-        return place / f"{self._sub}-{key}" if key else place / self._sub
-
-    def _files(self, place: Path) -> _Checked:
-        folder = str(self._folder_in(place))
-        return _Checked(folder, self._impl.filename_base + _OURS, self._stamp)
-
-    def _index_key(self, sig: Any, codegen: Any) -> Any:
-        """numba's key, in which a signature with the user's own types is their names."""
-        key = super()._index_key(sig, codegen)
-        modules = sorted(set(_outer_modules(sig)))
-        return (f"{sig} of {modules}", *key[1:]) if modules else key
+    def _path(self, place: Path, key: str) -> Path:
+        return place / self._sub / f"{self._stem}-{key}{SUFFIX}"
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The kernel compiled for a signature, or None if it is not there or damaged."""
+        target_context.refresh()
+        key = self._key(sig, target_context.codegen())
+        if key is None:
+            return None
         for place in self._folder.places:
-            self._cache_file = self._files(place)
+            path = self._path(place, key)
             try:
-                self._cache_file.check_owner()
-                found = super().load_overload(sig, target_context)
-            except NotADirectoryError:
-                continue  # no cache at all: what writes to it says so
+                payload = pickle.loads(kernel_files.read_whole(path))
+                found = CompileResult._rebuild(target_context, *payload)
+            except (FileNotFoundError, NotADirectoryError):
+                continue  # none, or no cache at all: what writes to it says so
             except Exception as error:  # a damaged file may hold anything
-                self._cache_file.remove()
-                self._folder.tell_damage(self._impl.filename_base, error)
+                kernel_files.remove(path)
+                self._folder.tell_damage(self._stem, error)
                 continue
-            if found is not None:
-                return found
+            kernel_files.mark_as_used(path)
+            self._note(sig)
+            return found
+        self._missing.add(key)
         return None
 
     def save_overload(self, sig: Any, data: Any) -> None:
-        """Keep a kernel where that is possible."""
+        """Keep a kernel where that is possible, if what it is made of has not changed since it was
+        looked for."""
+        key = self._key(sig, data.codegen)
+        if key not in self._missing or data.lifted or data.library.has_dynamic_globals:
+            return
+        content: bytes = dumps(data._reduce())
         while (place := self._folder.place) is not None:
-            self._cache_file = self._files(place)
+            path = self._path(place, key)
             try:
-                make_private(self._folder_in(place))
-                return super().save_overload(sig, data)
+                kernel_files.write_whole(path, content)
             except OSError as error:
                 self._folder.refuse(error)
-            except Exception as error:  # an index that is damaged
-                self._cache_file.remove()
-                self._folder.tell_damage(self._impl.filename_base, error)
-                return None
-        return None
+                continue
+            kernel_files.remove_unused(path.parent, self._stem)
+            self._note(sig)
+            return
+
+    def _note(self, signature: Any) -> None:
+        used.add(self._name)
+        used.update(_layouts(signature))
 
 
-def damaged(folder: Path) -> list[Path]:
-    """Files of compiled kernels in a folder that cannot be read. They are looked at, not loaded:
-    that would run what they hold."""
-    found = []
-    for path in sorted(folder.rglob(f"*{_OURS}.*")):
-        try:
-            with open(path, "rb") as file:
-                if path.suffix == ".nbi":
-                    _values(file), _values(file)
-                elif path.suffix == ".nbc":
-                    (checksum, *_), (content, *_) = _values(file)
-                    _opened((checksum, content))
-        except FileNotFoundError:
-            continue  # another process removed it
-        except Exception:
-            found.append(path)
-    return found
-
-
-def _values(file: IO[bytes]) -> tuple[list[Any], list[Any]]:
-    """The whole numbers and the bytes in a pickle, which is not loaded; an error for one that is
-    cut short."""
-    numbers, contents = [], []
-    for code, value, _ in pickletools.genops(file):
-        if code.name.startswith(("BININT", "LONG")):
-            numbers.append(value)
-        elif "BINBYTES" in code.name:
-            contents.append(value)
-    return numbers, contents
+def _layouts(kind: Any) -> Iterator[str]:
+    """Names of the NamedTuples in a numba type, a signature or a tuple of types."""
+    if isinstance(kind, types.BaseNamedTuple):
+        yield class_name(kind.instance_class)
+    for part in parts_of(kind):
+        yield from _layouts(part)

@@ -15,10 +15,12 @@ from numba.core import cgutils
 from numba.experimental.function_type import FunctionModel
 from numba.extending import NativeValue, register_model, unbox
 
+from flexcage.core.type_texts import described
 
-def short_name(kind: str, content: object) -> str:
+
+def short_name(kind: str, content: Any) -> str:
     """A type's name for what may take many lines to name: names are part of compiled code."""
-    return f"{kind}({hashlib.sha256(str(content).encode()).hexdigest()[:16]})"
+    return f"{kind}({hashlib.sha256(described(content).encode()).hexdigest()[:16]})"
 
 
 class KernelType(types.FunctionType):
@@ -26,7 +28,11 @@ class KernelType(types.FunctionType):
 
     def __init__(self, signature: Any) -> None:
         super().__init__(signature)
-        self._name = short_name("Kernel", self.key)
+        self._name = short_name("Kernel", self.signature)
+
+    @property
+    def key(self) -> str:
+        return self._name
 
     @property
     def name(self) -> str:

@@ -2,7 +2,10 @@
 
 They are numba's internals, so they are replaced only in releases that the tests have run with, and
 put back after each compilation: whoever else uses numba in the process sees it unchanged. Without
-them kernels give the same numbers, and compile more slowly into larger files.
+them kernels give the same numbers, and compile more slowly into larger files: in processor time of
+the rollers' largest kernel three times as long without all of them, 1.4 times without parts left
+unfinished, 1.3 times without calls at an address; the balls' kernels take a tenth longer (numba
+0.68, measured in 2026-11).
 """
 
 from __future__ import annotations
@@ -32,8 +35,7 @@ def is_tested(version: str) -> bool:
 
 
 def _optimise(whole: Callable[..., None]) -> Callable[..., None]:
-    """Leave a part as it is until a caller inlines it: numba optimises it there again, which took
-    half of all compile time (measured)."""
+    """Leave a part as it is until a caller inlines it: numba optimises it there again."""
 
     def optimise(library: CPUCodeLibrary) -> None:
         if not library.name.startswith(PART_NAME):

@@ -1,8 +1,8 @@
 """Folders that nobody else can write to: what lies there was put there by this user.
 
-Compiled kernels are code, and numba's index of them is a pickle, which runs code when it is read.
-So a cache is read only where no other user but root could have put anything: neither into it, nor
-in its place by way of a folder above it.
+Compiled kernels are code, kept in pickles, which run code when they are read. So a cache is read
+only where no other user but root could have put anything: neither into it, nor in its place by way
+of a folder above it.
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ from typing import Any
 from flexcage.case import Case, load_case, load_extension
 from flexcage.case.extensions import sources
 from flexcage.compiling import kernels_of
-from flexcage.core import jit
+from flexcage.core import kernel_marks
 from flexcage.core.errors import EnvironmentLacks, FlexcageError, InputError
 from flexcage.core.threads import on_one_core
 from flexcage.mesh.options import MeshOptions
@@ -177,11 +177,11 @@ def compile_kernels(case: Case) -> None:
     """Compile the kernels once a machine: workers that need them at the same time wait."""
     import filelock
 
-    if jit.kernels_cached(kernels_of(case)):
+    if kernel_marks.kernels_cached(kernels_of(case)):
         return
-    lock = jit.compiling_lock(kernels_of(case))
+    lock = kernel_marks.compiling_lock(kernels_of(case))
     with nullcontext() if lock is None else filelock.FileLock(lock):
-        if not jit.kernels_cached(kernels_of(case)):
+        if not kernel_marks.kernels_cached(kernels_of(case)):
             rigid = case.replace("cage.model", "rigid").replace("defects", ())
             coarse = rigid.replace("mesh", MeshOptions(fineness="coarse"))
             simulate(coarse.replace("solver.duration", 2.0 / case.output.rate))

@@ -13,7 +13,7 @@ import flexcage
 from flexcage.compiling import build_bearing
 from flexcage.core.cache import cached_arrays
 from flexcage.core.hashing import content_hash
-from flexcage.core.jit import kernel_sources, source_hash
+from flexcage.core.sources import kernel_sources, source_hash
 from flexcage.modes.reduction import CageReduction
 from flexcage.stages import cage_mesh, cage_reduction
 from flexcage.system.layout import Layout, bodies_of_bearing

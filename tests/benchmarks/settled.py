@@ -14,7 +14,7 @@ import flexcage
 from flexcage.compiling import build_bearing
 from flexcage.core.cache import cached_arrays
 from flexcage.core.hashing import content_hash
-from flexcage.core.jit import kernel_sources, source_hash
+from flexcage.core.sources import kernel_sources, source_hash
 from flexcage.integrate.integration import FIRST_STEP
 from flexcage.solve.contract import DONE, LOG_FULL, OUTCOMES, T
 from flexcage.solve.integrators import INTEGRATORS

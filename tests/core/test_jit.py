@@ -11,12 +11,13 @@ import numpy as np
 import pytest
 
 from flexcage import compiling
-from flexcage.core.jit import allocating_kernel, boxed, fields, kernel_sources
+from flexcage.core.jit import allocating_kernel, boxed, fields
+from flexcage.core.sources import kernel_sources
 
 PLAIN = bool(numba.config.DISABLE_JIT)
 
 
-def test_the_cache_of_kernels_knows_every_file_that_feeds_them():
+def test_the_fingerprint_of_kernels_knows_every_file_that_feeds_them():
     """Named constants and plain functions reach kernels from files that compile nothing."""
     known = {f"{path.parent.name}/{path.name}" for path in kernel_sources()}
     assert {"contacts/evaluation.py", "system/data.py", "system/layout.py"} <= known
@@ -52,6 +53,15 @@ def test_a_kernel_reads_and_writes_what_a_box_holds():
     assert kernel(boxed(values)) == (-3, 0.25, 24.0, 3, 6, 14.0)
     assert values.table[1, 2, 3] == 24.0
     assert kernel(boxed(values._replace(count=2**40)))[:3] == (2**40, 0.25, 25.0)
+
+
+def test_groups_of_one_name_are_told_apart_by_their_fields():
+    a_first, b_first = (
+        NamedTuple("Same", [(name, float) for name in names]) for names in ("ab", "ba")
+    )
+    kernel = allocating_kernel(lambda box: fields(box).a)
+    assert kernel(boxed(a_first(a=1.0, b=2.0))) == 1.0
+    assert kernel(boxed(b_first(a=1.0, b=2.0))) == 1.0
 
 
 def test_numpy_numbers_are_boxed_as_themselves():

@@ -1,20 +1,21 @@
 """Compiled kernels on disk: damaged, full and read-only caches cost time and never a result."""
 
-import json
 import os
 import shutil
 import subprocess
 import sys
 import tempfile
+import time
 from errno import EACCES, ENOSPC
 from functools import partial
 from pathlib import Path
 
 import numba
 import pytest
+from warm_process import said_and_told, warm_process
 
-from flexcage.core import environment
-from flexcage.core.kernel_cache import damaged
+from flexcage.core import environment, kernel_files
+from flexcage.core.kernel_files import damaged
 
 pytestmark = pytest.mark.skipif(
     bool(numba.config.DISABLE_JIT), reason="plain Python compiles nothing"
@@ -80,51 +81,17 @@ def run(warm, script, tmp_path):
     return partial(ran, warm, script, tmp_path)
 
 
-WARM = """
-import json, os, sys
-import numba
-
-@numba.njit
-def first(x):
-    return x
-
-first(1.0)  # what numba sets up at its first compilation
-for line in sys.stdin:
-    code, folder, env, paths = json.loads(line)
-    child = os.fork()
-    if not child:
-        os.chdir(folder)
-        for number, name in ((1, "said"), (2, "told")):
-            os.dup2(os.open(name, os.O_WRONLY | os.O_CREAT | os.O_TRUNC), number)
-        os.environ.update(env)
-        sys.path[:0] = paths
-        exec(compile(code, "code", "exec"), {"__name__": "__main__"})
-        sys.stdout.flush()
-        os._exit(0)
-    print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), flush=True)
-"""
-
-
 @pytest.fixture(scope="module")
 def warm():
-    """A process that has loaded numba and no more, and forks for every script: a second less."""
-    env = {k: v for k, v in os.environ.items() if k != "NUMBA_CACHE_DIR"}
-    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
-    with subprocess.Popen([sys.executable, "-c", WARM], env=env, **pipes) as process:
+    with warm_process() as process:
         yield process
-        process.stdin.close()
 
 
 def ran(warm: subprocess.Popen, script: Path, folder: Path, before: str = "") -> tuple[int, str]:
     """What a process of the script with a cache in this folder read from disk and warned of."""
-    job = (
-        f"{before}\nimport own_kernel", str(folder),
-        {"FLEXCAGE_CACHE_DIR": str(folder / "cache")}, [str(script), str(folder)],
-    )  # fmt: skip
-    print(json.dumps(job), file=warm.stdin, flush=True)
-    code, told = warm.stdout.readline(), (folder / "told").read_text()
-    assert code == "0\n", told
-    return int((folder / "said").read_text()), told
+    code = f"{before}\nimport own_kernel"
+    said, told = said_and_told(warm, code, folder, folder / "cache", script, folder)
+    return int(said), told
 
 
 @pytest.fixture
@@ -148,24 +115,39 @@ DAMAGES = {
 
 
 @pytest.mark.parametrize("damage", DAMAGES)
-@pytest.mark.parametrize("suffix", [".nbi", ".nbc"])
-def test_a_damaged_kernel_is_compiled_anew(tmp_path, run, cached, damage, suffix):
-    (file,) = [p for p in entries(tmp_path) if p.suffix == suffix]
+def test_a_damaged_kernel_is_compiled_anew(tmp_path, run, cached, damage):
+    (file,) = entries(tmp_path)
     file.write_bytes(DAMAGES[damage](file.read_bytes()))
     hits, told = run()
-    if told:  # one bit of an index may name another kernel, which is not found: no damage
-        assert (
-            len(told.splitlines()) == 1 and "own_kernel.whole" in told and "cannot be read" in told
-        )
-        assert hits == 0
-    assert told or (damage, suffix) == ("flipped", ".nbi")
+    assert hits == 0 and len(told.splitlines()) == 1
+    assert "own_kernel.whole" in told and "cannot be read" in told
     assert run() == (1, "")
+
+
+def test_old_versions_of_a_kernel_go_when_nobody_reads_them(tmp_path, script, run, cached):
+    """One is old when it was neither written nor read for a month; another kernel's stay."""
+    (current,) = entries(tmp_path)
+    old, read, other = (
+        current.with_name(name) for name in (
+            f"own_kernel.whole-{'1' * 32}.kernel", f"own_kernel.whole-{'2' * 32}.kernel",
+            f"own_kernel.whole_of_it-{'3' * 32}.kernel",
+        )
+    )  # fmt: skip
+    shutil.copy(current, old), shutil.copy(current, read), shutil.copy(current, other)
+    long_ago = time.time() - 31 * 86400.0
+    for path in (old, read, other, current):
+        os.utime(path, (long_ago, long_ago))
+    kernel_files.mark_as_used(read)
+    assert run() == (1, "")  # the current one was read
+    current.unlink()
+    assert run() == (0, "")
+    assert set(entries(tmp_path)) == {current, read, other}
 
 
 def test_the_doctor_names_a_damaged_kernel(tmp_path, cached, monkeypatch):
     folder = tmp_path / "cache" / "kernels"
     assert damaged(folder) == []
-    (file,) = [p for p in entries(tmp_path) if p.suffix == ".nbc"]
+    (file,) = entries(tmp_path)
     data = bytearray(file.read_bytes())
     data[len(data) // 2] ^= 1  # what unpickles as before and would run as another program
     file.write_bytes(data)
@@ -174,19 +156,6 @@ def test_the_doctor_names_a_damaged_kernel(tmp_path, cached, monkeypatch):
     finding = environment._kernel_cache()
     assert not finding.ok and file.name in finding.detail
     assert "flexcage cache --clear" in finding.remedy
-
-
-def test_the_doctor_knows_no_types_of_a_users_file(tmp_path, run):
-    """The index of a kernel that takes them names the file, which the doctor does not load."""
-    (tmp_path / "own_pair.py").write_text(
-        "from typing import NamedTuple\nfrom flexcage.core.jit import kernel\n"
-        "class Pair(NamedTuple):\n    a: float\n    b: float\n"
-        "@kernel\ndef add(pair):\n    return pair.a + pair.b\n"
-        "assert add(Pair(1.0, 2.0)) == 3.0\n"
-    )
-    run("import own_pair")
-    folder = tmp_path / "cache" / "kernels"
-    assert list(folder.rglob("own_pair.add*.nbi")) and damaged(folder) == []
 
 
 @pytest.mark.parametrize("name", ["ENOSPC", "EACCES", "EROFS", "EDQUOT"])
@@ -216,7 +185,7 @@ def test_never_beside_the_sources(tmp_path, script, run):
     """There a change in a callee of another file would go unseen."""
     (tmp_path / "cache").write_text("in the way")
     run()
-    assert not [p for folder in (tmp_path, script) for p in folder.rglob("*.nb[ic]")]
+    assert not [p for folder in (tmp_path, script) for p in folder.rglob("*.kernel")]
 
 
 @pytest.mark.parametrize("number", [ENOSPC, EACCES])

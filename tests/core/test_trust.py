@@ -1,4 +1,4 @@
-"""A cache that others may write to is not read: its kernels are code, their index a pickle."""
+"""A cache that others may write to is not read: its kernels are code, kept in pickles."""
 
 import logging
 import os
@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from flexcage.core import cache, environment, trust
-from flexcage.core.kernel_cache import KernelFolder, damaged
+from flexcage.core.kernel_files import KernelFolder, damaged, write_whole
 from flexcage.core.trust import distrusted, make_private
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="permissions are of another kind")
@@ -147,9 +147,9 @@ class Harmful:
 def test_the_doctor_loads_no_pickle(folder, tmp_path, mode):
     """Neither of a foreign cache, which it names, nor of the user's own."""
     mark = tmp_path / "mark"
-    for suffix in ("nbi", "nbc"):
-        content = pickle.dumps(Harmful(mark))
-        (folder / "kernels" / f"f.g-1.py311-checked.{suffix}").write_bytes(content * 2)
+    content = pickle.dumps(Harmful(mark))
+    write_whole(folder / "kernels" / "f.g-1.kernel", content)
+    (folder / "kernels" / "f.g-2.kernel").write_bytes(content)
     folder.chmod(mode)
     findings = {finding.name: finding for finding in (
         environment._cache_folder(), environment._kernel_cache()
@@ -160,5 +160,5 @@ def test_the_doctor_loads_no_pickle(folder, tmp_path, mode):
             assert not finding.ok and "other users may write" in finding.detail
             assert finding.remedy == "set FLEXCAGE_CACHE_DIR to a folder of your own"
     else:
-        assert [path.suffix for path in damaged(folder / "kernels")] == [".nbc"]
+        assert [path.name for path in damaged(folder / "kernels")] == ["f.g-2.kernel"]
     assert not mark.exists()

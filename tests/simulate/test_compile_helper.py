@@ -41,7 +41,7 @@ def test_the_helper_ends_when_its_parent_is_killed(tmp_path):
     end = time.monotonic() + 60.0  # far less than it would take without looking
     while runs(helper) and time.monotonic() < end:
         time.sleep(0.1)
-    found = list(tmp_path.rglob("*.nbc"))
+    found = list(tmp_path.rglob("*.kernel"))
     assert not runs(helper)
     assert len(found) < 20, "it had compiled all that there is"
 

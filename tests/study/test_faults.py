@@ -151,7 +151,7 @@ register_basis("counted", build)
 
 @pytest.mark.slow
 def test_modes_that_cases_share_are_made_once(tmp_path):
-    from flexcage.core.jit import kernel_cache_dir
+    from flexcage.core.kernel_files import kernel_cache_dir
 
     count = tmp_path / "count"
     (tmp_path / "mine.py").write_text(COUNTED.format(file=str(count)))

@@ -12,7 +12,7 @@ from dask_processes import PATIENCE, begun, kill_family, wait_for, when_written,
 from slurm_node import one_node_slurm, said, what_is_lacking
 from study_cases import study_file
 
-from flexcage.core.jit import kernel_cache_dir
+from flexcage.core.kernel_files import kernel_cache_dir
 from flexcage.study.run import run_study
 from flexcage.study.spec import load_study
 

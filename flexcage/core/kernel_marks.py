@@ -1,0 +1,94 @@
+"""Marks that say: all kernels that a family's run needs are on disk, made of what is there now.
+
+A process finds its kernels one by one, when it has a bearing; a mark tells beforehand whether
+there is something to compile. It lists functions and NamedTuples with the keys of their contents,
+and holds as long as these are the same.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import importlib
+import sys
+from functools import reduce
+from pathlib import Path
+
+import numba
+
+from flexcage.core import kernel_cache
+from flexcage.core.jit import kernel_folder
+from flexcage.core.kernel_files import read_whole, write_whole
+from flexcage.core.kernel_keys import compiler_key, content_key
+from flexcage.core.type_texts import UnknownContent
+from flexcage.core.users_files import contents_key
+
+_PACKAGE = f"{__name__.partition('.')[0]}."
+
+
+def _stem(what: str) -> str:
+    """Beginning of the names of marks made with this compiler and these files of the user's."""
+    key = hashlib.sha256(f"{compiler_key()} {contents_key()}".encode()).hexdigest()[:16]
+    return f"compiled-{what}-{key}"
+
+
+def kernels_cached(what: str) -> bool:
+    """True if nothing is left to be compiled for a run of the family ``what``, or nothing ever
+    is."""
+    if numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
+        return True
+    keys: dict[str, str] = {}
+    return any(
+        _holds(mark, keys)
+        for place in kernel_folder.places
+        for mark in sorted(place.glob(f"{_stem(what)}-*.mark"))
+    )
+
+
+def mark_compiled(what: str) -> None:
+    """Say that all kernels are on disk, if they are."""
+    place = kernel_folder.place
+    if place is None or kernels_cached(what):
+        return
+    keys = ((_key_of(name), name) for name in sorted(kernel_cache.used))
+    content = "\n".join(f"{key} {name}" for key, name in keys if key).encode()
+    if not content:
+        return
+    name = f"{_stem(what)}-{hashlib.sha256(content).hexdigest()[:16]}.mark"
+    try:
+        write_whole(place / name, content)
+    except OSError as error:
+        kernel_folder.refuse(error)
+
+
+def compiling_lock(what: str) -> Path | None:
+    """A file by which processes agree who compiles; None where none can be written."""
+    kernel_folder.ensure_writable()
+    place = kernel_folder.place
+    return None if place is None else place / f"{_stem(what)}.lock"
+
+
+def _holds(mark: Path, keys: dict[str, str]) -> bool:
+    """Whether all that a mark lists has the contents that it had; ``keys``: those known now."""
+    try:
+        lines = read_whole(mark).decode().splitlines()
+    except (OSError, ValueError):
+        return False
+    for line in lines:
+        key, _, name = line.partition(" ")
+        if name not in keys:
+            keys[name] = _key_of(name)
+        if keys[name] != key:
+            return False
+    return True
+
+
+def _key_of(name: str) -> str:
+    """Key of a function or class called "module:name"; empty if there is none in its module, as of
+    what stands inside a function, or if its module is a user's that is not loaded."""
+    module, _, path = name.partition(":")
+    try:
+        own = module.startswith(_PACKAGE)
+        found: object = importlib.import_module(module) if own else sys.modules[module]
+        return content_key(reduce(getattr, path.split("."), found))
+    except (ImportError, KeyError, AttributeError, UnknownContent):
+        return ""
