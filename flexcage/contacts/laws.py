@@ -278,8 +278,7 @@ def register_normal(
     ``N_NORMAL`` numbers, from the spec and the stiffness K [N/m^n] and exponent n of one slice or
     point as geometry and materials make them. p[0] and p[1] must be the stiffness and exponent of
     an elastic force like the law's: the start's equilibrium uses them, and the stored energy is F
-    d/(p[1] + 1). Without ``parameters`` p is (K, n). Compiled code is cached by the file of
-    ``law``, so compiled functions that it calls must stand in the same file.
+    d/(p[1] + 1). Without ``parameters`` p is (K, n).
 
     Raises InputError for a name that is taken, a law that cannot be compiled, or a wrong spec.
     """
