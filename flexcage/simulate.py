@@ -47,7 +47,7 @@ def simulate(
     expect(case, Case, "case", "flexcage.load_case reads one from a file")
     if out is None:
         return _simulated(case, None, None, None, stress, progress)
-    folder = Path(out)
+    folder = path_of(out, "out")
     check_no_file(folder)
     if resume:
         check_written(folder)

@@ -24,13 +24,14 @@ from flexcage.mesh.quality import check_mesh
 from flexcage.modes.reduction import CageReduction
 from flexcage.modes.table import ModeTable
 from flexcage.system.bending import rigid_rings
-from flexcage.system.bodies import heaviest_load
+from flexcage.system.bodies import heaviest_load, in_housing
 from flexcage.system.constraints import names_of
 from flexcage.system.layout import Layout, bodies_of_bearing
 from flexcage.system.left_behind import left_by_lands
 from flexcage.system.problem import Bearing
+from flexcage.system.ring_modes import DAMPED
 from flexcage.system.ring_walls import lands_follow
-from flexcage.system.rings_in_motion import MovingRings, in_housing, moving_rings
+from flexcage.system.rings_in_motion import MovingRings, moving_rings
 from flexcage.system.start import Start, constrained, find_start, with_push
 from flexcage.system.statics.options import AT_START
 from flexcage.system.statics.rings import BentRing, Rings
@@ -120,8 +121,7 @@ def _moving_rings(specs: CaseSections) -> MovingRings | None:
     rings = replace(_rings_of(specs), heavier=heaviest_load(specs.load))
     seat = compliance_of(specs.mount, specs.bearing)
     stands = specs.mount.kind == "fixed" and seat is None
-    made = moving_rings(rings, _statics(specs, rings, seat), stands=stands)
-    return made if seat is None else in_housing(made, specs.bearing, rings, specs.mount, seat)
+    return moving_rings(rings, _statics(specs, rings, seat), stands=stands)
 
 
 def _rings_of(specs: CaseSections) -> Rings:
@@ -150,6 +150,10 @@ def _assembled(
         lubricant=specs.lubricant, drive=specs.drive, load=specs.load, mount=specs.mount,
         seed=specs.seed,
     )  # fmt: skip
+    seat = compliance_of(specs.mount, specs.bearing)
+    if seat is not None:
+        late = DAMPED * specs.outer_ring.relaxation
+        model = model._replace(outer_ring=in_housing(model.outer_ring, seat, late))
     count = specs.bearing.element_count
     if bends:
         bending = bending_of(specs.bearing)
@@ -176,7 +180,9 @@ def assembled_start(
     """
 
     def statics() -> StaticSolution:
-        return bearing.rings.start if bearing.rings else _statics(specs)
+        if bearing.rings:
+            return bearing.rings.start
+        return _statics(specs, seat=compliance_of(specs.mount, specs.bearing))
 
     limit = specs.limits.assembly_force
     with progress(1.0, "start") as bar:

@@ -57,6 +57,7 @@ def ehl_traction(
     pressure; ``shear_modulus`` [Pa] is that of the film with what the surfaces yield, an assumption
     of the order that disc machines show. Raises InputError for a bearing that stands still.
     """
+    expect(case, StaticCase, "case", "flexcage.load_static reads one from a file")
     if case.speed == 0.0:
         raise InputError(
             "The bearing stands still at the start (drive.speed): without motion there is no film "

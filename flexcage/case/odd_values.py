@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import degrees, radians
 from typing import TYPE_CHECKING, Any
 
 from flexcage.core.units import describe
@@ -17,6 +18,8 @@ Said = tuple[str, str]  # key of a warning, and its sentence
 
 ODD, OTHER_STEEL = "odd_value", "other_steel"
 _STEEL = 0.1  # by which a modulus may differ from bearing steel's before ratings are another's
+_THINNEST = 0.02  # of the element's diameter, a fifth of what sheet and webs have (assumption)
+_FLATTEST = radians(1.0)  # contact angle; no catalogue has less than 10 deg
 _ROUGHEST = 0.005  # of the element's diameter, ten times the waves of a bad race (assumption)
 
 
@@ -52,7 +55,33 @@ def odd_values(case: StaticCase) -> Iterator[Said]:
     for where, material, usual in _bodies(case):
         yield from ((ODD, text) for text in _odd_constants(where, material, usual))
     yield from ((ODD, text) for text in _rough_races(case))
+    yield from ((ODD, text) for text in _thin_cage(case))
+    yield from ((ODD, text) for text in _flat_contact(case))
     yield from _of_other_steel(case)
+
+
+def _thin_cage(case: Any) -> Iterator[str]:
+    """A cage thinner than any is made, as where too many elements leave it no webs."""
+    if not hasattr(case, "cage"):
+        return
+    bearing = case.bearing
+    count, element = bearing.element_count, bearing.element
+    for name, size in case.cage.parts(bearing.pitch_diameter, count).items():
+        if size < _THINNEST * bearing.element_diameter:
+            yield (
+                f"The cage's {name} have {describe(size, 'mm')} at their thinnest, for {element}s "
+                f"of {describe(bearing.element_diameter, 'mm')}: are {count} {element}s meant?"
+            )
+
+
+def _flat_contact(case: StaticCase) -> Iterator[str]:
+    """A contact angle in radians that was given as degrees."""
+    angle = getattr(case.bearing, "contact_angle", None)
+    if isinstance(angle, float) and 0.0 < angle < _FLATTEST and degrees(degrees(angle)) < 60.0:
+        yield (
+            f"bearing.contact_angle is {describe(angle, 'deg')}, where angular contact bearings "
+            f"have 10 to 40 deg; is {degrees(angle):.3g} rad meant?"
+        )
 
 
 def _bodies(case: Any) -> Iterator[tuple[str, Material, tuple[Usual, ...]]]:

@@ -58,7 +58,7 @@ def _azimuths(supports: tuple[float, ...]) -> str:
 
 
 def find_bending_in_run(case: CaseSections) -> Iterator[Finding]:
-    """What rings that bend, or that a housing carries, cannot have in a run."""
+    """What rings that bend cannot have in a run."""
     outer, mount = case.outer_ring, case.mount
     if outer.bends and outer.seat in SUPPORTED and (mount.kind != "fixed" or mount.body):
         what = "mount.body is given" if mount.body else f"mount.kind is '{mount.kind}'"
@@ -72,11 +72,9 @@ def find_bending_in_run(case: CaseSections) -> Iterator[Finding]:
         for side in ("inner_ring", "outer_ring")
         if getattr(case, side).bends
     ]
-    if mount.body:
-        yields.append("mount.body is given")
     if yields and case.solver.method == "bdf":
         yield (
             "solver.method",
-            f"solver.method is 'bdf', but {yields[0]}, and rings that bend or sit in a housing "
-            "that yields move by explicit steps; take 'explicit' or 'auto'.",
+            f"solver.method is 'bdf', but {yields[0]}, and rings that bend move by explicit "
+            "steps; take 'explicit' or 'auto'.",
         )

@@ -15,6 +15,7 @@ from typing import Any, Self
 
 from flexcage.case.checks import check_static_case
 from flexcage.case.files import file_paths, with_files
+from flexcage.case.frozen import explain
 from flexcage.case.presets import NAMED
 from flexcage.case.read import read_case
 from flexcage.case.sections import CaseSections, StaticSections
@@ -45,6 +46,7 @@ class StaticCase(StaticSections):
     """
 
     def __post_init__(self) -> None:
+        explain(self)
         self.check()
 
     def check(self) -> None:
@@ -101,11 +103,12 @@ class StaticCase(StaticSections):
         kind: Any = type(self)
         bare = _unchecked(kind)(**_values(self))
         for where, new in with_their_choice(bare, pairs).items():
-            if where == "bearing.preset":
+            if where in ("bearing.preset", "preset"):
                 raise InputError(
-                    "bearing.preset cannot be replaced in a finished case; load it with the "
-                    "other preset instead.",
-                    where=where,
+                    "bearing.preset cannot be replaced in a case that has its values already; "
+                    "write a case for each preset, and of a study one study for each case.",
+                    where="bearing.preset",
+                    value=new,
                 )
             new = bare._prepared(where, new, binder)
             with words_of_text():

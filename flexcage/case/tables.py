@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import fields
 from typing import Any
 
 from flexcage.case.presets import NAMED, Preset, load_preset
 from flexcage.core.binding import chosen_spec, to_table
 from flexcage.core.errors import InputError
+from flexcage.geometry.bearing import BEARING_TYPES
 
 # In text the cage's model stands with the cage; the preset, with the bearing.
 ALIASES = {"cage.model": "cage_model", "bearing.preset": "preset"}
@@ -37,7 +39,24 @@ def with_preset(table: dict[str, Any]) -> dict[str, Any]:
         return dict(table)
     if not isinstance(name, str):
         raise InputError(f"bearing.preset is {name!r}, but should be text.", where="bearing.preset")
-    return _merge(_without_other_cage(load_preset(name), table), table)
+    preset = load_preset(name)
+    _refuse_other_type(preset, bearing)
+    return _merge(_without_other_cage(preset, table), table)
+
+
+def _refuse_other_type(preset: Preset, bearing: Any) -> None:
+    """InputError for a type of bearing that has not the dimensions of the preset's."""
+    own = bearing.get("type") if isinstance(bearing, Mapping) else None
+    spec = BEARING_TYPES.get(own) if isinstance(own, str) else None
+    if spec is None:
+        return  # the preset's, or none that there is
+    if preset.tables["bearing"].keys() - {field.name for field in fields(spec)}:
+        raise InputError(
+            f"bearing.type is '{own}', but the preset {preset.name} is one of type "
+            f"'{preset.bearing.type}'; leave out bearing.type, or bearing.preset.",
+            where="bearing.type",
+            value=own,
+        )
 
 
 def refuse_name(bearing: Any) -> None:

@@ -349,8 +349,7 @@ def _compiled(law: Any, signature: Any, what: str) -> Any:
     except numba.errors.NumbaError as exc:
         reason = why_not_compiled(exc)
         raise InputError(
-            f"The {what} cannot be compiled for the arguments {signature.args}: {reason}.",
-            where=what,
+            f"The {what} ({_ARGUMENTS[signature]}) cannot be compiled: {reason}.", where=what
         ) from exc
 
 

@@ -112,7 +112,8 @@ class Binder:
         names = self.named.get(cls)
         if names and isinstance(value, str):
             if value not in names:
-                hint = did_you_mean(value, names, "known are")
+                told = told_elsewhere(value, getattr(cls, "elsewhere", {}))
+                hint = told or did_you_mean(value, names, "known are")
                 raise InputError(
                     f"{where} '{value}' is not known; {hint}.", where=where, value=value
                 )

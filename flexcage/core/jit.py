@@ -9,6 +9,7 @@ files (``kernel_cache``).
 from __future__ import annotations
 
 import os
+import re
 import struct
 import warnings
 from pathlib import Path
@@ -116,10 +117,28 @@ def kernel_of(function: Any, signature: Any) -> Any:
         return kernel(signature, cache=False)(function)  # typed at a prompt: there is no file
 
 
+_NO_REASON = ("Failed in nopython mode", "- Resolution failure")
+_WHY = {  # of what numba says to what it means
+    "return_value": "it returns a value, but must write into the arrays that it is given, and "
+    "return nothing",
+    "NRT required": "it makes an array of its own, but must write into those that it is given, "
+    "entry by entry, as F[i] = p[0] * d[i]",
+    "No implementation of function Function(<built-in function": "numba does not know this "
+    "operation for numbers and arrays of numbers",
+}
+
+
 def why_not_compiled(error: Exception) -> str:
-    """What of numba's many lines says why a user's function cannot be compiled."""
-    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
-    return lines[min(1, len(lines) - 1)] if lines else type(error).__name__
+    """Why a user's function cannot be compiled, in words or by the line of numba's that says it,
+    and where that is in the user's file."""
+    text = str(error)
+    lines = [line.strip() for line in text.splitlines() if line.strip()]
+    told = (line for line in lines if not line.startswith(_NO_REASON))
+    reason = next((why for mark, why in _WHY.items() if mark in text), None)
+    reason = reason or next(told, type(error).__name__).rstrip(".:")
+    places = re.findall(r'File "([^"]+)", line (\d+):', text)
+    own = [(file, line) for file, line in places if "site-packages" not in file]
+    return f"{reason} (line {own[0][1]} of {own[0][0]})" if own else reason
 
 
 def part(*args: Any, **kwargs: Any) -> Any:

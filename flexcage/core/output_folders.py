@@ -47,6 +47,10 @@ def _not_of(path: Path, wanted: str) -> str:
 
 def _found(path: Path, wanted: str) -> Iterator[str]:
     """What it is instead, and what to do; the first that holds."""
+    if path.name == RESULTS or path.is_file() and (path.parent / RESULTS).exists():
+        yield f"it lies in that folder; name '{path.parent}'"
+    if path.suffix == ".nc":
+        yield "it is netCDF, which flexcage writes for other programs and does not read"
     if path.is_file():
         way = "run" if "run" in wanted else "study run"
         makes = f", of which 'flexcage {way} {path}' makes one" if path.suffix == ".toml" else ""

@@ -251,6 +251,13 @@ def check_each(defects: Sequence[CageDefect], cage: Cage, count: int) -> None:
         raise_first(defect.check(f"defects.{i}", cage, count))
     for kind in dict.fromkeys(type(defect) for defect in defects):
         raise_first(kind.check_together([d for d in defects if type(d) is kind], count))
+    for i, defect in enumerate(defects):
+        if defect in defects[:i]:
+            raise InputError(
+                f"defects.{i} is the same as defects.{list(defects).index(defect)}, and both would "
+                "add up; leave one out.",
+                where=f"defects.{i}",
+            )
 
 
 def raise_first(findings: Iterable[Finding]) -> None:

@@ -2,10 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
+from typing import ClassVar
 
 from flexcage.core.registry import add_sourced
 from flexcage.core.spec import option, quantity
+
+_OWN = (
+    'give its values: {name = "...", youngs_modulus = "... GPa", poisson_ratio = ...,'
+    ' density = "... kg/m^3"}'
+)
+# names of other norms and tongues: what flexcage has, or that it has none
+_OTHER_NAMES = MappingProxyType({
+    r"((AISI|SAE|ASTM|A) ?)?E?[ -]?52100|100 ?Cr ?6|SUJ ?-?2|1\.3505|EN ?31|ShKh ?15|"
+    r"(bearing|chrom(e|ium)).?steel": "'GCr15' is this steel",
+    r"(DC|DD|FeP)0?[1-6]\d?|SPC[CDE]|St ?1[234]|(AISI|SAE)? ?10(08|10)|(low|mild).?carbon.*|"
+    r"(sheet|strip|mild).?steel": "'steel' is sheet steel of this class",
+    r"(G-?|Z)?CuZn.*|H?Pb ?59-?1|CW6\d\d[A-Z]|MS ?58|C3[5-8]\d00|(?!brass$).*brass.*|messing":
+    "'brass' is leaded brass, CuZn40Pb",
+    r"Si3N4|silicon.?nitride|ZrO2|zirconia|.*ceramics?": f"flexcage has no ceramics: {_OWN}",
+    r".*bronze.*|CuSn.*|.*alumini?um.*|titan.*|Ti-?6.*|stainless.*|AISI ?(304|316|440).*|X\d+Cr.*|"
+    r"POM|PTFE|PPS.*|phenol.*|tufnol|cast.?iron|GG.*|GJS.*": _OWN,
+})  # fmt: skip
 
 OILED_ASSEMBLY = 0.01  # assumption: damping ratio of a machined metal part in an oiled assembly
 
@@ -13,6 +33,8 @@ OILED_ASSEMBLY = 0.01  # assumption: damping ratio of a machined metal part in a
 @dataclass(frozen=True, kw_only=True)
 class Material:
     """An isotropic linear elastic material."""
+
+    elsewhere: ClassVar[Mapping[str, str]] = _OTHER_NAMES
 
     name: str = option(doc="name of the material")
     youngs_modulus: float = quantity("GPa", doc="Young's modulus", above=0.0)

@@ -54,7 +54,7 @@ SURROUNDINGS: Mapping[str, str] = MappingProxyType({
     r"bearings|pairs?|duplex|arrangement|rows?|sets?": "flexcage has one single-row bearing a "
     "case, [bearing], no pairs or sets; give one its share of the load in [load]",
     r"pre.?load.*|springs?": "flexcage has no preload between bearings: give its force as "
-    "load.axial, or a negative bearing.radial_clearance",
+    "load.axial, or a negative bearing.radial_clearance of deep groove balls",
     r"(.*_)?temperatures?(_.*)?|heat.*|thermal.*|cooling": "flexcage computes no heat: give "
     "lubricant.viscosity and the clearance at the temperature of work, and cage.temperature for "
     "the cage's modulus",

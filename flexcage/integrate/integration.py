@@ -17,7 +17,6 @@ from flexcage.integrate.foresight import EVERY, Foresight
 from flexcage.integrate.recorded import recorded, recorded_names
 from flexcage.integrate.recording import Recording
 from flexcage.integrate.registered import computed_in, registered
-from flexcage.integrate.rings import carried
 from flexcage.results.lowpass import butterworth, low_passed
 from flexcage.results.options import OutputOptions
 from flexcage.results.registry import COMPUTED
@@ -322,9 +321,6 @@ class Integration:
         raw = self.bearing.data.samples.force[:n] / ring.inertia[MASS]
         if ring.free.any():
             raw = np.ascontiguousarray(self.bearing.layout.u(yd)["outer"][:, 1:3])
-        moved = carried(self.bearing, yd)
-        if moved is not None:
-            raw = np.ascontiguousarray(moved[1][:, 1:])
         cut = min(FILTER_HZ / (0.5 * self.output.vibration_rate), 0.95)
         filtered = low_passed(butterworth(cut), raw, self._filter)
         return {"outer_acceleration": raw, "outer_acceleration_filtered": filtered}

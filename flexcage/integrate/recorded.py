@@ -8,7 +8,7 @@ import numpy as np
 
 from flexcage.integrate.postures import orientation, to_body
 from flexcage.integrate.recording import Recording
-from flexcage.integrate.rings import carried, ring_records
+from flexcage.integrate.rings import ring_records
 from flexcage.results.options import OutputOptions
 from flexcage.results.registry import ENERGIES, VARIABLES, variables_of
 from flexcage.results.store import MemoryRunStore, RunStore
@@ -133,9 +133,6 @@ def _common(bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> dict[str, np.nda
     }
     if layout.bends:
         arrays |= ring_records(bearing, y)
-        moved = carried(bearing, y)
-        if moved is not None:
-            arrays["outer_position"], arrays["outer_velocity"] = moved
     if layout.modes:
         arrays["modal_coordinates"] = q["modes"]
         arrays["modal_velocity"] = u["modes"]

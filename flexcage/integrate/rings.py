@@ -32,16 +32,6 @@ def ring_records(bearing: Bearing, y: np.ndarray) -> dict[str, np.ndarray]:
     return found
 
 
-def carried(bearing: Bearing, y: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
-    """Displacement and velocity (n, 3) of the outer ring in a housing that yields, in states
-    (n, size); None in a rigid one."""
-    unit = bearing.rings.unit if bearing.rings else np.zeros(0)
-    if not len(unit):
-        return None
-    moved = (bearing.layout.ring_coordinates(y) * unit)[..., :3]
-    return moved[:, 0], moved[:, 1]
-
-
 def _swung(bearing: Bearing, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Deflections (n, Z, 2) of an outer race that swings, and forces (n, S) of its supports."""
     layout, model = bearing.layout, bearing.data.model

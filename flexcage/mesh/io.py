@@ -25,6 +25,7 @@ from typing import Any
 
 import numpy as np
 
+from flexcage.core.binding import path_of
 from flexcage.core.errors import FlexcageError, InputError, unwritable
 from flexcage.core.missing import no_file
 from flexcage.core.writing import written
@@ -35,6 +36,7 @@ from flexcage.mesh.cage_mesh import (
 )
 from flexcage.mesh.files.abaqus import read_inp
 from flexcage.mesh.files.ansys import read_cdb
+from flexcage.mesh.files.frame import check_axis
 from flexcage.mesh.files.msh import read_msh
 from flexcage.mesh.files.others import no_mesh
 from flexcage.mesh.files.raw import RawMesh, Refused, first_alike, group_name
@@ -66,7 +68,7 @@ def write_mesh(mesh: CageMesh, path: str | Path) -> Path:
     """Write a mesh with its groups as .msh or .vtu, in metres; returns the path."""
     import meshio
 
-    path = Path(path)
+    path = path_of(path, "path")
     if path.suffix not in (".msh", ".vtu"):
         raise InputError(f"{path}: a mesh is written as .msh or .vtu", where="path")
     parts = pocket_groups(mesh.groups)
@@ -113,7 +115,7 @@ def is_written_by_us(path: Path) -> bool:
 
 def read_mesh(path: str | Path, *, pocket_count: int | None = None, unit: str = "m") -> CageMesh:
     """Read and check a cage mesh with named groups; lengths in the file are in ``unit`` (m, mm)."""
-    path = Path(path)
+    path = path_of(path, "path")
     raw = _read_raw(path)
     tets = _tetrahedra(raw, path)
     warn_of_curves(raw, path)
@@ -134,6 +136,7 @@ def read_mesh(path: str | Path, *, pocket_count: int | None = None, unit: str = 
         info["in_one_place"] = open_at
     mesh = CageMesh(points, tets, MappingProxyType(groups), count, MappingProxyType(info))
     _refuse_missing(mesh, unknown, raw.no_surfaces, path)
+    check_axis(mesh, str(path))
     check_mesh(mesh, where=str(path))
     _check_size(mesh, path, unit)
     return _with_sectors(mesh)

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from flexcage.core.binding import path_of
 from flexcage.core.errors import InputError, unwritable
 from flexcage.core.writing import write_text
 
@@ -45,7 +46,7 @@ def write_series(
 
 def new_folder(folder: str | Path) -> Path:
     """An empty folder, made if it is not there; InputError otherwise."""
-    folder = Path(folder)
+    folder = path_of(folder, "folder")
     try:
         folder.mkdir(parents=True, exist_ok=True)
         full = any(folder.iterdir())

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from flexcage._version import __version__
+from flexcage.core.binding import path_of
 from flexcage.core.errors import InputError, unwritable
 from flexcage.core.writing import check_own, replace
 from flexcage.report.blocks import Image, Page
@@ -32,7 +33,7 @@ class PageTooLarge(InputError):
 
 def write_page(page: Page, path: str | Path) -> Path:
     """Write the page to ``path`` in one move; InputError if it is too big or cannot be written."""
-    path = Path(path)
+    path = path_of(path, "path")
     if path.suffix != ".html":
         raise InputError(f"'{path}' should end in .html.", where="out", value=str(path))
     text = html(page).encode()

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from flexcage.core.binding import did_you_mean
+from flexcage.core.binding import did_you_mean, path_of
 from flexcage.core.errors import EnvironmentLacks, InputError, install, unwritable
 from flexcage.core.writing import written
 from flexcage.results.layout import plain_attr
@@ -123,7 +123,7 @@ def write_table(
     not have, or a file that is there, unless ``force`` is given; EnvironmentLacks where a library
     is missing.
     """
-    path = Path(path)
+    path = path_of(path, "path")
     check_ending(path)
     if path.suffix == ".mat":
         _check_new([path], force)
@@ -302,7 +302,7 @@ def _written(path: Path, write: Callable[..., Any], *args: Any, **options: Any) 
 
 
 def _ready(path: str | Path) -> Path:
-    path = Path(path)
+    path = path_of(path, "path")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:

@@ -10,6 +10,7 @@ the cage that shows just these readings.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from math import cos, pi, sin
 from pathlib import Path
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
 
 ITERATIONS = 20  # of the inversion; it gains five digits in each
 CHANNELS = ("Y", "Z", "X1", "X2", "X3")
+_FARTHEST = 10.0  # mm, that a cage moves: tens of times the clearance of large bearings' cages
+_OF_TIMES = re.compile(r"time|zeit\b|sec|(?-i:t)\b", re.IGNORECASE)
 TIME = "t"  # column of a rig's file that holds times in seconds
 
 
@@ -227,13 +230,41 @@ def load_readings(path: str | Path) -> np.ndarray:
             f"{', '.join(CHANNELS)}, then numbers in mm.",
             where=lacking[0],
         )
-    return 1e-3 * table[:, [names.index(name) for name in CHANNELS]]
+    found = table[:, [names.index(name) for name in CHANNELS]]
+    if (farthest := float(np.abs(found).max())) > _FARTHEST:
+        raise InputError(
+            f"The readings '{path}' go up to {farthest:g} mm, but no cage moves farther than "
+            f"{_FARTHEST:g} mm in its clearance: write mm, as 0.15 for 150 um, from the reading of "
+            "a centred cage.",
+            value=farthest,
+        )
+    return 1e-3 * found
 
 
 def load_times(path: str | Path) -> np.ndarray | None:
-    """Times (n,) [s] of a rig's readings: the column t of their file; None if it has none."""
+    """Times (n,) [s] of a rig's readings: the column t of their file; None if it has none.
+
+    Raises InputError for times of another name, and for those that do not rise.
+    """
     names, table = _columns(path)
-    return table[:, names.index(TIME)] if TIME in names else None
+    if TIME not in names:
+        if other := next((name for name in names if _OF_TIMES.match(name)), None):
+            raise InputError(
+                f"The readings '{path}' have a column '{other}'; name it t, and give seconds.",
+                where=TIME,
+                value=other,
+            )
+        return None
+    times: np.ndarray = table[:, names.index(TIME)]
+    if (late := np.flatnonzero(np.diff(times) <= 0.0)).size:
+        row = int(late[0]) + 1
+        raise InputError(
+            f"The readings '{path}' have times that do not rise: reading {row + 1} is at "
+            f"{times[row]:g} s, after {times[row - 1]:g} s; sort them, or write more digits.",
+            where=TIME,
+            value=float(times[row]),
+        )
+    return times
 
 
 def _columns(path: str | Path) -> tuple[list[str], np.ndarray]:
@@ -244,6 +275,12 @@ def _columns(path: str | Path) -> tuple[list[str], np.ndarray]:
     except OSError as exc:
         raise InputError(f"The readings '{path}' cannot be read: {exc.strerror}.") from exc
     names = [name.strip() for name in first.split(",")]
+    if twice := next((name for name in names if name and names.count(name) > 1), None):
+        raise InputError(
+            f"The readings '{path}' have {names.count(twice)} columns '{twice}'; leave one of "
+            "them.",
+            where=twice,
+        )
     lines = [(number, line) for number, line in enumerate(rest, 2) if line.strip()]
     other = next((f"'{mark}'" if mark == ";" else "tabs" for mark in ";\t" if mark in first), None)
     if other:

@@ -217,7 +217,7 @@ class UnknownFigure(InputError, KeyError):
     __str__ = Exception.__str__
 
     def __init__(self, key: str, known: Sequence[str]) -> None:
-        close = near_names(key, known, 1)
+        close = near_names(str(key), known, 1)
         hint = f"the nearest name is '{close[0]}'" if close else "'flexcage figures' lists all"
         super().__init__(f"The summary has no figure '{key}'; {hint}.", where="summary", value=key)
 

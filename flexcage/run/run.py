@@ -9,7 +9,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from flexcage.core.binding import Binder
+from flexcage.core.binding import Binder, path_of
 from flexcage.core.errors import EnvironmentLacks, InputError
 from flexcage.core.output_folders import check_no_file
 from flexcage.core.progress import Silent
@@ -52,7 +52,7 @@ class Run(SummarisedRun):
         """
         from flexcage.run.tables import write_table
 
-        return write_table(self, Path(path), variables, force=force)
+        return write_table(self, path_of(path, "path"), variables, force=force)
 
     def draw(
         self,
@@ -80,12 +80,13 @@ class Run(SummarisedRun):
         from flexcage.run.pictures import draw_pictures
 
         check_format(format)
-        check_no_file(Path(folder))
+        folder = path_of(folder, "folder")
+        check_no_file(folder)
         names = [only] if isinstance(only, str) else list(only)
         given = {"view": view, "stress_limit": stress_limit, "scale": scale}
         look = Binder(si=True).bind(Look, given, "")
         paths = self.stages(
-            "pictures", draw_pictures, self, Path(folder), animate=animate, look=look, only=names,
+            "pictures", draw_pictures, self, folder, animate=animate, look=look, only=names,
             format=format,
         )  # fmt: skip
         if self.effort is not None:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from flexcage.case import Case, description
+from flexcage.core.binding import path_of
 from flexcage.core.errors import InputError
 from flexcage.core.listing import PAGE
 from flexcage.core.writing import replace
@@ -26,13 +27,13 @@ def compare_runs(runs: dict[str, Run], *, out: str | Path | None = None) -> Comp
         {name: run.summary for name, run in runs.items()}, first.case.difference(second.case)
     )
     if out is not None:
-        _write(found, runs, Path(out))
+        _write(found, runs, path_of(out, "out"))
     return found
 
 
 def compare(first: str | Path, second: str | Path, *, out: str | Path | None = None) -> Comparison:
     """Compare two stored runs, named by their folders, as ``compare_runs``."""
-    if Path(first).resolve() == Path(second).resolve():
+    if path_of(first, "first").resolve() == path_of(second, "second").resolve():
         raise InputError(
             f"compare was given the run '{first}' twice; name two runs.", where="compare"
         )
@@ -48,7 +49,9 @@ def compare_case(
     cases = {model: case.replace("cage.model", model) for model in MODELS}
     with told_at_once(cases.values()):
         runs = {
-            model: simulate(each, out=Path(out) / model if out else None, progress=progress)
+            model: simulate(
+                each, out=path_of(out, "out") / model if out else None, progress=progress
+            )
             for model, each in cases.items()
         }
     return compare_runs(runs, out=out)

@@ -13,6 +13,7 @@ from typing import Any
 
 from flexcage.case import Case
 from flexcage.contacts.spec import FEWEST_SLICES, MOST_SLICES
+from flexcage.core.binding import path_of
 from flexcage.core.errors import FlexcageError, InputError
 from flexcage.core.reading import read_json
 from flexcage.core.warning import RunWarning
@@ -146,7 +147,7 @@ def converge(
     if duration is not None:
         case = case.replace("solver.duration", duration)
     steps = levels(case, axes)
-    out = Path(out)
+    out = path_of(out, "out")
     write_case(out, case)
     wanted = {level.case.hash: level for level in (*steps, Level("case", "as is", case))}
     _check_physics(wanted, out / "cases", allowed=other_version)

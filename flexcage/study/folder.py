@@ -26,6 +26,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from flexcage.core.binding import path_of
 from flexcage.core.errors import InputError, unwritable
 from flexcage.core.hashing import seal_holds, sealed
 from flexcage.core.locks import LOCK, held
@@ -74,7 +75,7 @@ class Folder:
     InputError, which names the link."""
 
     def __init__(self, path: str | Path) -> None:
-        self.path = Path(path)
+        self.path = path_of(path, "study")
         self.cases, self.failed = self.path / "cases", self.path / "failed"
 
     def case(self, name: str) -> Path:

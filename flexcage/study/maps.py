@@ -168,7 +168,7 @@ def run_map(
     Only some ``points`` are computed where they are named: so a map is rechecked with a finer
     model, whose folder is another.
     """
-    out, study = Path(out), spec.study(points)
+    out, study = path_of(out, "out"), spec.study(points)
     plan = make_plan(study)
     folder = Folder(out.resolve())
     if not other_version:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from flexcage.core.binding import expect
+from flexcage.core.binding import expect, path_of
 from flexcage.core.errors import RunFailed
 from flexcage.core.hashing import content_hash
 from flexcage.core.progress import Silent
@@ -59,7 +59,7 @@ def run_study(
     expect(study, Study, "study", "flexcage.load_study reads one from a file")
     require_packages()
     plan = make_plan(study)
-    folder = Folder(Path(out).resolve())
+    folder = Folder(path_of(out, "out").resolve())
     check_physics(plan, folder, allowed=other_version)
     folder.prepare(plan)
     with folder.held():

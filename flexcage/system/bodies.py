@@ -18,6 +18,7 @@ from flexcage.system.data import Bodies, RingBody
 from flexcage.system.layout import HELD_VELOCITIES
 from flexcage.system.spec import WAVES, Drive, Load, Mount, Wave
 
+YIELDS = [0, 1, 2, 4, 5]  # of a ring's velocities, those that a housing's compliance is of
 CAGE_SKIN_FRICTION = 0.01  # assumption: turbulent skin friction of the cage's outer surface
 
 
@@ -219,31 +220,48 @@ def inner_ring_of(bearing, drive: Drive, load: Load, *, free_axially: bool) -> R
     """The inner ring on its shaft."""
     tilts = load.tilt == "free"
     free = np.array([free_axially, True, True, drive.kind == "shaft", tilts, tilts])
-    springs = np.zeros((6, 2))
-    springs[HELD_VELOCITIES[:3], :] = np.array([load.stiffness, load.damping]).T
-    springs *= free[:, None]
+    stiffness, damping = np.zeros((2, 6, 6))
+    sprung = HELD_VELOCITIES[:3]
+    stiffness[sprung, sprung] = load.stiffness * free[list(sprung)]
+    damping[sprung, sprung] = load.damping * free[list(sprung)]
     return RingBody(
         inertia=np.array([bearing.inner_ring_mass + load.shaft_mass, *bearing.inner_ring_inertia]),
         free=free.astype(np.int64),
         stands=int(load.centre != "free"),
-        stiffness=np.ascontiguousarray(springs[:, 0]),
-        damping=np.ascontiguousarray(springs[:, 1]),
+        stiffness=stiffness,
+        damping=damping,
         rest=np.array([0.0, 0.0, 0.0, 0.0, 0.0, load.misalignment]),
         loose=0,
-        clearance=0.0,
+        bore=np.zeros(3),
     )
 
 
 def outer_ring_of(bearing, mount: Mount) -> RingBody:
-    """The outer ring on its mount."""
-    free = np.array([0, 1, 1, 0, 0, 0]) * (mount.kind != "fixed")
+    """The outer ring on its mount, without an elastic body as its housing (``in_housing``). What
+    moves with it has its radii of gyration (an assumption)."""
+    mass = bearing.outer_ring_mass + mount.mass
+    moves, loose = mount.kind != "fixed", mount.kind == "contact"
+    stiffness, damping = np.zeros((2, 6, 6))
+    if moves and not loose:
+        stiffness[[1, 2], [1, 2]], damping[[1, 2], [1, 2]] = mount.stiffness, mount.damping
+    turns = np.array(bearing.outer_ring_inertia) * mass / bearing.outer_ring_mass
     return RingBody(
-        inertia=np.array([bearing.outer_ring_mass + mount.mass, *bearing.outer_ring_inertia]),
-        free=free,
+        inertia=np.array([mass, *turns]),
+        free=np.array([0, 1, 1, 0, 0, 0]) * moves,
         stands=0,
-        stiffness=mount.stiffness * free.astype(float),
-        damping=mount.damping * free.astype(float),
+        stiffness=stiffness,
+        damping=damping,
         rest=np.zeros(6),
-        loose=int(mount.kind == "contact"),
-        clearance=mount.clearance,
+        loose=int(loose),
+        bore=np.array([mount.stiffness, mount.damping, mount.clearance]),
     )
+
+
+def in_housing(ring: RingBody, compliance: np.ndarray, late: float) -> RingBody:
+    """An outer ring whose seat yields by ``compliance`` (5, 5) in x, y, z and the tilts about y and
+    z, and is damped by its stiffness times ``late`` [s]."""
+    stiffness = np.zeros((6, 6))
+    stiffness[np.ix_(YIELDS, YIELDS)] = np.linalg.inv(compliance)
+    free = np.zeros(6, np.int64)
+    free[YIELDS] = 1
+    return ring._replace(free=free, stiffness=stiffness, damping=late * stiffness)

@@ -85,11 +85,11 @@ class RingBody(NamedTuple):
     inertia: np.ndarray  # (3,) mass, axial and transverse inertia, with what moves with it
     free: np.ndarray  # (6,) 1 where it is free; else it is held or driven
     stands: int  # 1: its centre stays where it is
-    stiffness: np.ndarray  # (6,) of springs, zero where it is held
-    damping: np.ndarray  # (6,)
+    stiffness: np.ndarray  # (6, 6) of springs, zero where it is held, and about the axis
+    damping: np.ndarray  # (6, 6)
     rest: np.ndarray  # (6,) coordinates at which springs rest, or it is held
-    loose: int  # 1: with clearance in its bore, where springs in y and z only press
-    clearance: float
+    loose: int  # 1: it lies in a bore with clearance, which presses on it
+    bore: np.ndarray  # (3,) of that: stiffness, damping, clearance
 
 
 class Memory(NamedTuple):
@@ -167,8 +167,8 @@ class Scratch(NamedTuple):
     sums: np.ndarray  # (N_SUMS,) see ``contacts.evaluation``
     vec: np.ndarray  # (N_VEC, 3), rows as above
     rings: np.ndarray  # (2, 2, 3) of both rings, in space: axis and angular velocity
-    held: np.ndarray  # (2,) force of the outer ring on its housing, y and z
-    pull: np.ndarray  # (3,) of springs on a ring: axially, in skew, in tilt
+    held: np.ndarray  # (2,) force of the outer ring on its bore, y and z
+    pull: np.ndarray  # (6,) of springs on a ring
     border: np.ndarray  # (bodies' velocities,) generalised forces on bodies
     shift: np.ndarray  # (bodies' velocities,) displacement of bodies
     moved: np.ndarray  # (bodies' coordinates,) what it makes of these
@@ -215,7 +215,7 @@ def new_work(
     )  # fmt: skip
     scratch = Scratch(
         z((6, 6)), z((2, 6, 6)), z((2, 3, 3)), z((3, 3)), np.eye(3), z((Z, KEPT, 3)), z((Z, 6)),
-        z(N_SUMS), z((N_VEC, 3)), z((2, 2, 3)), z(2), z(3), z(bodies), z(bodies),
+        z(N_SUMS), z((N_VEC, 3)), z((2, 2, 3)), z(2), z(6), z(bodies), z(bodies),
         z(layout.places.coordinates), z((2, filled(n, 8))), z(layout.size),
     )  # fmt: skip
     return Work(

@@ -179,8 +179,8 @@ def _inner_equations(t, y, yd, d, out, mode):
     free, rest, pull = body.free, body.rest, work.pull
     bent, damped = ring_springs(body, q, u, pull)
     g[AXIAL_FORCE] = lam[AXIAL_FORCE] - pull[0] if free[0] != 0 else u[0]
-    g[MOMENT_Y] = lam[MOMENT_Y] - pull[1] if free[U_SKEW] != 0 else u[U_SKEW]
-    g[MOMENT_Z] = lam[MOMENT_Z] - pull[2] if free[U_TILT] != 0 else u[U_TILT]
+    g[MOMENT_Y] = lam[MOMENT_Y] - pull[U_SKEW] if free[U_SKEW] != 0 else u[U_SKEW]
+    g[MOMENT_Z] = lam[MOMENT_Z] - pull[U_TILT] if free[U_TILT] != 0 else u[U_TILT]
     g[DRIVE_TORQUE] = u[U_SPIN] - target if free[U_SPIN] == 0 else lam[DRIVE_TORQUE]
     g[N_LAMBDA] = mu[0] if free[0] != 0 else q[0] - rest[0]
     g[N_LAMBDA + 1] = mu[1] if free[U_SKEW] != 0 else q[Q_SKEW] - rest[U_SKEW]
@@ -206,7 +206,7 @@ def _constraint_slopes(body, b, first, tan):
     for k in range(3):
         rate, place, c = first + k, first + N_LAMBDA + k, HELD_VELOCITIES[k]
         if body.free[c] != 0:
-            tan.Kbb[rate, b + c], tan.Cbb[rate, b + c] = body.stiffness[c], body.damping[c]
+            tan.Kbb[rate, b + c], tan.Cbb[rate, b + c] = body.stiffness[c, c], body.damping[c, c]
             tan.Cbb[rate, rate] = tan.Cbb[place, place] = 1.0
         else:
             tan.Cbb[rate, b + c] = tan.Kbb[place, b + c] = tan.Kbb[place, place] = 1.0

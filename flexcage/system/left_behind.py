@@ -28,7 +28,7 @@ def left_behind(moving: MovingRings) -> np.ndarray:
     for bent in moving.start.rings:
         side = SIDES.index(bent.side)
         found[side] = bent.deflection @ bent.seated.to_v
-        if side == OUTER_RACE and len(moving.at_start) and not len(moving.unit):
+        if side == OUTER_RACE and len(moving.at_start):
             turn = np.multiply.outer(bent.azimuth, swings.harmonic)
             waves = np.where(swings.quarter == COSINE, np.cos(turn), np.sin(turn))
             found[side] -= (waves * moving.at_start) @ swings.shape

@@ -108,7 +108,10 @@ def _rates(t, y, yd, data, mode):
     _hold(t, ring_q, ring_u, inner, bodies)
     zero(y[end : at.loads])
     law[HOLD](t, y, yd, d, law[CONSTRAINT_EQUATIONS], out, PROJECT)
-    ring_springs(inner, ring_q, ring_u, lam)
+    pull = fields(d.scratch).pull
+    ring_springs(inner, ring_q, ring_u, pull)
+    for k in range(3):
+        lam[k] = pull[HELD_VELOCITIES[k]]
     zero(yd)
     data[2](t, y, yd, d, data[1], out, mode)
     for k in range(end):

@@ -35,7 +35,7 @@ from flexcage.system.data import (
     TRANSVERSE,
 )
 
-SPRUNG = (0, U_SKEW, U_TILT)  # velocities with springs of a shaft or a housing, beside y and z
+STIFFNESS, DAMPING, CLEARANCE = range(3)  # of ``RingBody.bore``
 
 
 class Ring(NamedTuple):
@@ -145,40 +145,46 @@ def ring_energy(body, u, gravity, rep):
 
 @part
 def ring_springs(body, q, u, pull):
-    """What springs and dampers to the ground do to a ring along its axis and in skew and tilt, into
-    ``pull`` (3,); zero where there are none. Returns energy stored and power lost."""
+    """What springs and dampers to the ground do to a ring, into ``pull`` (6,). Returns energy
+    stored and power lost."""
     rest = body.rest
-    away = (q[0] - rest[0], q[Q_SKEW] - rest[U_SKEW], q[Q_TILT] - rest[U_TILT])
-    speed = (u[0], u[U_SKEW], u[U_TILT])
+    away = (
+        q[0] - rest[0], q[1] - rest[1], q[2] - rest[2], 0.0, q[Q_SKEW] - rest[U_SKEW],
+        q[Q_TILT] - rest[U_TILT],
+    )  # fmt: skip
     stored = lost = 0.0
-    for k in range(3):
-        stiffness, damping = body.stiffness[SPRUNG[k]], body.damping[SPRUNG[k]]
-        force = stiffness * away[k]
-        if k == 1:  # the ring's own axis turns slower than skew
+    for i in range(RIGID):
+        force = damped = 0.0
+        for k in range(RIGID):
+            force += body.stiffness[i, k] * away[k]
+            damped += body.damping[i, k] * u[k]
+        stored += 0.5 * away[i] * force
+        lost += u[i] * damped
+        if i == U_SKEW:  # the ring's own axis turns slower than skew
             force /= cos(q[Q_TILT])
-        pull[k] = -force - damping * speed[k]
-        stored += 0.5 * stiffness * away[k] * away[k]
-        lost += damping * speed[k] * speed[k]
+        pull[i] = -force - damped
     return stored, lost
 
 
 @part
+def _spring_slopes(body, b, tan):
+    """Slopes of these, with the first row at b in the border."""
+    for i in range(RIGID):
+        for k in range(RIGID):
+            tan.Kbb[b + i, b + k] += body.stiffness[i, k]
+            tan.Cbb[b + i, b + k] += body.damping[i, k]
+
+
+@part
 def _in_bore(body, q, u, b, held, tan, sloped):
-    """Force ``held`` (y, z) of the outer ring on its housing; returns energy stored and power lost.
+    """Force ``held`` (y, z) of the outer ring on its bore; returns energy stored and power lost.
     Slopes are added if ``sloped``."""
-    k, c = body.stiffness[1], body.damping[1]
+    k, c = body.bore[STIFFNESS], body.bore[DAMPING]
     y, z = q[1], q[2]
     held[0] = held[1] = 0.0
     distance = sqrt(y * y + z * z)
     n = (1.0, 0.0) if distance == 0.0 else (y / distance, z / distance)
-    if body.loose == 0:
-        for i in range(2):
-            held[i] = k * q[1 + i] + c * u[1 + i]
-            if sloped:
-                tan.Kbb[b + 1 + i, b + 1 + i] += k
-                tan.Cbb[b + 1 + i, b + 1 + i] += c
-        return 0.5 * k * distance * distance, c * (u[1] * u[1] + u[2] * u[2])
-    depth = distance - body.clearance
+    depth = distance - body.bore[CLEARANCE]
     rate = n[0] * u[1] + n[1] * u[2]
     force = k * depth + c * rate
     if depth <= 0.0:
@@ -202,17 +208,17 @@ def outer_rows(body, ring, qd, ud, d, r_q, r_u, sloped, reported):
     q, u, b = ring.q, ring.u, ring.b
     push, held, pull = array_from(work.border, b), work.held, work.pull
     ring_rows(body, q, u, qd, ud, push, gravity, (0.0, 0.0), work.S[0], r_q, r_u)
-    stored, lost = _in_bore(body, q, u, b, held, tan, sloped)
-    bent, damped = ring_springs(body, q, u, pull)
-    r_u[1] += held[0]
-    r_u[2] += held[1]
-    for k in range(3):
-        r_u[SPRUNG[k]] -= pull[k]
+    stored, lost = ring_springs(body, q, u, pull)
+    for c in range(RIGID):
+        r_u[c] -= pull[c]
+    if body.loose != 0:
+        pressed, damped = _in_bore(body, q, u, b, held, tan, sloped)
+        stored, lost = stored + pressed, lost + damped
+        r_u[1] += held[0]
+        r_u[2] += held[1]
     if sloped:
         ring_slopes(body, u, b, tan)
-        for k in range(3):
-            tan.Kbb[b + SPRUNG[k], b + SPRUNG[k]] += body.stiffness[SPRUNG[k]]
-            tan.Cbb[b + SPRUNG[k], b + SPRUNG[k]] += body.damping[SPRUNG[k]]
+        _spring_slopes(body, b, tan)
     for c in range(RIGID):
         if body.free[c] == 0:
             r_u[c] = ud[c]
@@ -221,8 +227,8 @@ def outer_rows(body, ring, qd, ud, d, r_q, r_u, sloped, reported):
     if reported:
         rep = fields(d.report)
         ring_energy(body, u, gravity, rep)
-        rep.energy[IN_MOUNT] += stored + bent
-        rep.power[MOUNT] -= lost + damped
+        rep.energy[IN_MOUNT] += stored
+        rep.power[MOUNT] -= lost
         for c in range(RIGID):
             rep.outer_wrench[c] = push[c]
 

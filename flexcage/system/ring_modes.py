@@ -1,4 +1,4 @@
-"""What an outer ring on supports or a soft foundation, or in a housing, has of mass in a run.
+"""What an outer ring on supports or a soft foundation has of mass in a run.
 
 Modes of the ring up to a frequency swing (``swinging``), with cosine and sine round it, and so does
 the translation of a ring that nothing holds but supports. The compliance of the rest is what the
@@ -14,8 +14,6 @@ import numpy as np
 
 from flexcage.contacts.ring_waves import COSINE, SINE
 from flexcage.fem.revolved import R, Revolved, X
-from flexcage.geometry.bearing import Bearing
-from flexcage.geometry.ring import Raceway
 from flexcage.modes.ring import RingReduction, natural_modes, spectrum, strip
 from flexcage.system.bending import POINTS
 from flexcage.system.statics.rings import BentRing, SeatedRing
@@ -139,33 +137,6 @@ def ring_coordinates(bent: BentRing, modes: LowModes) -> Coordinates:
         moved = seated.translation(bent.force, bent.bears)  # along y and z
         at_start[w == 0.0] = moved * seated.reduction.rigid[_SEAT] / modes.shape[0, _SEAT]
     return replace(made, at_start=at_start)
-
-
-def housing_coordinates(
-    bearing: Bearing, raceway: Raceway, compliance: np.ndarray, mass: float, outer: np.ndarray
-) -> tuple[Coordinates, np.ndarray]:
-    """Motions of an outer ring of a ``mass`` [kg] in a housing whose seat yields by ``compliance``
-    (5, 5) and is displaced by ``outer`` (5,) at the start; and the displacements (5,) that they
-    stand for.
-
-    The radius of gyration is that of a ring of the bearing's width between race and seat.
-    """
-    x, r = raceway.place
-    radii, width = np.array([r, 0.5 * bearing.outside_diameter]), bearing.width
-    inertia = mass * (np.sum(radii**2) / 4.0 + width**2 / 12.0)
-    unit = 1.0 / np.sqrt(np.array([mass] * 3 + [inertia] * 2))
-    along, radial = (np.array(port) for port in ([1.0, 0.0], [0.0, 1.0]))
-    turned = np.array([-r, x])
-    if raceway.line:
-        along, radial, turned = np.zeros(2), np.array([1.0, 0.0]), np.array([x, 1.0])
-    shape = np.stack([along, radial, radial, -turned, turned])
-    section = np.array([[1, 0, 0], [0, 1, 0], [0, 1, 0], [0, 0, -1], [0, 0, 1]])
-    made = Coordinates(
-        np.array([0, 1, 1, 1, 1]), np.array([COSINE, COSINE, SINE, SINE, COSINE]),
-        unit[:, None] * shape, unit[:, None] * section, np.empty((0, 5)),
-        unit[:, None] * np.linalg.inv(compliance) * unit, outer / unit,
-    )  # fmt: skip
-    return made, unit
 
 
 def late_of(made: Coordinates, relaxation: float) -> np.ndarray:

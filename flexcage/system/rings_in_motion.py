@@ -2,27 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from flexcage.geometry.bearing import Bearing
 from flexcage.modes.ring import natural_frequencies
 from flexcage.system.bending import C11, C22, POINTS, RingsData, rigid_rings
-from flexcage.system.data import OUTER_RACE
 from flexcage.system.layout import Layout
 from flexcage.system.ring_modes import (
-    housing_coordinates,
-    late_of,
     left_over,
     low_modes,
     ring_coordinates,
     swings_of_ring,
 )
-from flexcage.system.spec import Mount
-from flexcage.system.statics.rings import TO_V, BentRing, Rings
+from flexcage.system.statics.rings import BentRing, Rings
 from flexcage.system.statics.solution import StaticSolution
-from flexcage.system.swinging import Swings, no_swings, swings_of
+from flexcage.system.swinging import Swings, no_swings
 
 SIDES = ("inner", "outer")
 _FAINT = 1e-4  # share of a deflection that elements far away make and may be left out
@@ -35,10 +30,8 @@ class MovingRings:
     """The rings that bend in a run: what kernels read, and the static solution at the start."""
 
     data: RingsData
-    swings: Swings  # coordinates of the outer ring on supports, or in a housing
+    swings: Swings  # coordinates of the outer ring on supports
     at_start: np.ndarray  # (M,) where they are
-    unit: np.ndarray  # (5,) displacement by those of a housing: x, y, z, tilts about y, z; or (0,)
-    carried: np.ndarray  # (Z, 3) by which a housing displaces the outer race then, along v
     start: StaticSolution
     warnings: tuple[str, ...] = ()  # sentences
 
@@ -69,8 +62,7 @@ def moving_rings(rings: Rings, solution: StaticSolution, *, stands: bool = True)
         elif lowest < _STIFF:
             told.append(_too_soft(bent.side, n, lowest))
         _put(data, bent, yields, spec.relaxation)
-    none, still = np.zeros(0), np.zeros((count, 3))
-    return MovingRings(data, swings, at_start, none, still, solution, tuple(told))
+    return MovingRings(data, swings, at_start, solution, tuple(told))
 
 
 def _put(data: RingsData, bent: BentRing, yields: np.ndarray, relaxation: float) -> None:
@@ -90,25 +82,6 @@ def _put(data: RingsData, bent: BentRing, yields: np.ndarray, relaxation: float)
     line = reduction.raceway.line
     data.reach[side] = 1.0, reduction.raceway.extent if line else 1.0
     data.way[:] = np.argmax(bent.seated.to_v, axis=0)
-
-
-def in_housing(
-    made: MovingRings, bearing: Bearing, rings: Rings, mount: Mount, compliance: np.ndarray
-) -> MovingRings:
-    """The same with an outer ring that moves in its housing, whose seat yields by ``compliance``
-    (5, 5). InputError for bearings without sections of their rings."""
-    loads, outer = made.start.elements, made.start.outer
-    raceway = rings.sections_of(bearing, loads)[OUTER_RACE].raceway
-    mass = bearing.outer_ring_mass + mount.mass
-    moved, unit = housing_coordinates(bearing, raceway, compliance, mass, outer)
-    late = late_of(moved, rings.outer.relaxation)
-    count = len(loads.azimuth)
-    swings = swings_of(
-        count, moved.harmonic, moved.quarter, moved.shape, moved.section, moved.stiffness, late
-    )
-    made.data.way[:] = np.argmax(TO_V[raceway.line], axis=0)
-    carried = (moved.waves(loads.azimuth) * moved.at_start) @ moved.shape @ TO_V[raceway.line].T
-    return replace(made, swings=swings, at_start=moved.at_start, unit=unit, carried=carried)
 
 
 def _reach(table: np.ndarray, own: np.ndarray, elements: int) -> int:
@@ -137,12 +110,11 @@ def _too_soft(side: str, n: int, lowest: float) -> str:
 
 
 def held_rings(moving: MovingRings) -> RingsData:
-    """Data of races that stay bent and carried as they are at the start, whatever presses."""
+    """Data of races that stay bent as they are at the start, whatever presses."""
     held = rigid_rings(moving.data.moment.shape[1])
     held.way[:] = moving.data.way
     for bent in moving.start.rings:
         held.given[SIDES.index(bent.side)] = bent.deflection @ bent.seated.to_v
-    held.given[OUTER_RACE] += moving.carried[:, held.way]
     return held
 
 

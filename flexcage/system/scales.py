@@ -11,6 +11,7 @@ from flexcage.system.layout import Layout
 
 # assumption: a position error moves at contact frequencies, about 5 kHz, when turned into a speed
 ERROR_RATE = 2.0 * np.pi * 5e3
+_OF_VELOCITIES = [0, 1, 2, 5, 3, 4]  # a ring's coordinates in the order of its velocities
 
 
 def shared_weights(model: Any, layout: Layout, length: float) -> np.ndarray:
@@ -26,10 +27,13 @@ def shared_weights(model: Any, layout: Layout, length: float) -> np.ndarray:
     q, u, speed = layout.q(allowed), layout.u(allowed), length * ERROR_RATE
     q["elements"][:, :2] = length
     q["elements"][:, 2] = length / pitch
-    q["inner"][1:3] = q["outer"][1:3] = q["cage"][:] = length
+    q["inner"][1:3] = q["cage"][:] = length
     q["quaternion"][:] = 0.5 * length / pitch
     u["elements"][:, :3] = speed
-    u["inner"][1:3] = u["outer"][1:3] = u["cage"][:] = speed
+    u["inner"][1:3] = u["cage"][:] = speed
+    free, arm = model.outer_ring.free > 0, np.array([1.0, 1.0, 1.0, pitch, pitch, pitch])
+    q["outer"][_OF_VELOCITIES] = np.where(free, length / arm, np.inf)
+    u["outer"][:] = np.where(free, speed / arm, np.inf)
     u["omega"][:] = speed / pitch
     if layout.modes:
         largest = np.maximum(model.pocket.phi_max, 1e-3 * model.pocket.phi_max.max())

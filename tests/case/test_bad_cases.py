@@ -396,3 +396,30 @@ def test_text_in_another_encoding_is_told_how_to_save_it(tmp_path, coding):
 def test_a_byte_order_mark_is_no_mistake(tmp_path):
     (tmp_path / "case.toml").write_text(PRESET, encoding="utf-8-sig")
     assert load_case(tmp_path / "case.toml").preset == "N1013"
+
+
+BEAM = '[[defects]]\ntype = "crossbeam"\ncrossbeam = 3\ndisplacement = "0.1 mm"\n'
+SIDE = '[[defects]]\ntype = "side_beam"\npocket = 9\ndisplacement = "0.1 mm"\n'
+LONG = '[[defects]]\ntype = "elongated"\npocket = 3\ndirection = "axial"\nelongation = "0.1 mm"\n'
+SAME = "defects.1 is the same as defects.0, and both would add up; leave one out."
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        (PRESET + BEAM + BEAM, "Crossbeam 3 is bent 2 times; give one"),
+        (PRESET + BEAM + BEAM.replace("0.1", "0.2"), "Crossbeam 3 is bent 2 times; give one"),
+        (PRESET + SIDE + SIDE.replace("0.1", "0.2"), "The side beam +x of pocket 9 is displaced 2"),
+        (BALLS + LONG + LONG, SAME),
+    ],
+)
+def test_a_defect_that_stands_twice_is_refused(text, sentence):
+    """Both would be added, and the cage have twice what each says."""
+    with pytest.raises(InputError) as caught:
+        load_case(text)
+    assert sentence in str(caught.value)
+
+
+def test_defects_of_one_beam_that_differ_in_kind_may_add_up():
+    case = load_case(PRESET + BEAM + BEAM + 'shape = "shifted"\n' + BEAM.replace("= 3", "= 4"))
+    assert len(case.defects) == 3

@@ -304,3 +304,43 @@ def test_a_difference_in_a_list_names_its_entries_alone():
     found = bent.difference(bent.replace("defects", ()))
     assert "defects.0.displacement" in found and "defects" not in found
     assert found["defects.0.crossbeam"][1] is None
+
+
+@pytest.mark.parametrize("path", ["preset", "bearing.preset"])
+def test_a_preset_cannot_be_replaced(case, path):
+    """The name alone would be, and a case say another bearing than it has."""
+    with pytest.raises(InputError, match="write a case for each preset"):
+        case.replace(path, "7010C-PI")
+    with pytest.raises(InputError, match="write a case for each preset"):
+        case.replace(**{path: "N1013"})
+
+
+@pytest.mark.parametrize(
+    ("assign", "sentence"),
+    [
+        (lambda case: setattr(case, "name", "x"), 'case = case.replace("name", value).'),
+        (lambda case: setattr(case.load, "radial", 5.0), 'case.replace("load.radial", value).'),
+        (lambda case: setattr(case.cage, "width", 1.0), 'case.replace("cage.width", value).'),
+        (lambda case: delattr(case.drive, "speed"), 'case.replace("drive.speed", value).'),
+        (
+            lambda case: setattr(case.cage.material, "density", 1.0),
+            "density of a Material was to be set",
+        ),
+        (
+            lambda case: setattr(case.contacts.pocket.normal, "law", "x"),
+            "case.replace(...), with the path of this value.",
+        ),
+        (
+            lambda case: setattr(case.defects[0], "displacement", 1.0),
+            "displacement of a CrossbeamDefect was to be set",
+        ),
+    ],
+)
+def test_a_value_that_is_assigned_is_told_how_to_be_changed(case, assign, sentence):
+    before = case.hash, case.load.radial
+    with pytest.raises(InputError) as caught:
+        assign(case)
+    assert sentence in str(caught.value)
+    assert isinstance(caught.value, dataclasses.FrozenInstanceError)
+    assert (case.hash, case.load.radial) == before
+    assert case.replace("load.radial", "5 N").load.radial == 5.0

@@ -54,6 +54,41 @@ def test_what_flexcage_has_not_is_declined_where_people_look(reader, text, words
     assert words in said(text, reader)
 
 
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("100Cr6", "'GCr15' is this steel"),
+        ("AISI 52100", "'GCr15' is this steel"),
+        ("SUJ2", "'GCr15' is this steel"),
+        ("CuZn40Pb2", "'brass' is leaded brass"),
+        ("DC04", "'steel' is sheet steel"),
+        ("Brass", "the nearest known one is 'brass'"),
+        ("Si3N4", "flexcage has no ceramics: give its values: {name ="),
+        ("CuSn8", "give its values: {name ="),
+    ],
+)
+def test_a_material_of_another_norm_is_named(name, words):
+    assert words in said(f'{BEARING}[cage]\nmaterial = "{name}"\n')
+    assert words in said(f'{BEARING}material = "{name}"\n')
+
+
+@pytest.mark.parametrize("reader", [load_case, load_static])
+@pytest.mark.parametrize(
+    ("preset", "other", "own"),
+    [
+        ("N1013", "deep_groove_ball", "cylindrical_roller"),
+        ("7010C-PI", "cylindrical_roller", "angular_contact_ball"),
+    ],
+)
+def test_a_type_that_is_not_the_presets_is_named(reader, preset, other, own):
+    text = f'[bearing]\npreset = "{preset}"\ntype = "{other}"\n'
+    assert said(text, reader) == (
+        f"bearing.type is '{other}', but the preset {preset} is one of type '{own}'; leave out "
+        "bearing.type, or bearing.preset."
+    )
+    assert load_case(text.replace(other, own)).bearing.type == own
+
+
 def test_hints_do_not_depend_on_case_or_strokes():
     assert near_names("PEEK cf", ["PEEK", "PA66-GF30"], 1) == ["PEEK"]
     assert near_names("pa66gf30", ["PEEK", "PA66-GF30"], 1) == ["PA66-GF30"]

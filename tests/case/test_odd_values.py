@@ -104,3 +104,20 @@ def test_forces_beyond_the_static_rating_are_warned_of(case, allowed):
 
     assert said(0.99 * limit) == []
     assert "23 times what the static rating allows one" in said(23.0 * limit)[0]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('preset = "N1013"\nroller_count = 30', "0.0472958 mm at their thinnest, for rollers of 8"),
+        ('preset = "7010C-PI"\ncontact_angle = "0.26 deg"', "is 0.26 rad meant?"),
+    ],
+)
+def test_a_bearing_that_nobody_makes_is_questioned(text, said):
+    found = [text for _, text in odd_values(flexcage.load_case(f"[bearing]\n{text}\n"))]
+    assert len(found) == 1 and said in found[0]
+
+
+@pytest.mark.parametrize("name", flexcage.preset_names())
+def test_no_preset_is_questioned(name):
+    assert not list(odd_values(flexcage.load_case(f'[bearing]\npreset = "{name}"\n')))

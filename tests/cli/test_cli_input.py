@@ -102,7 +102,7 @@ def folders(elsewhere):
                  "study/cases", "begun", "lost", "packed"):  # fmt: skip
         (elsewhere / name).mkdir(parents=True)
     for name in ("study/study.toml", "both/compare.json", "begun/case.toml", "mine.toml", "a.png",
-                 "lost/summary.json", "packed/summary.json",
+                 "x.nc", "lost/summary.json", "runs/good/summary.json", "packed/summary.json",
                  "packed/results.zarr.zip"):  # fmt: skip
         (elsewhere / name).write_text("")
 
@@ -185,6 +185,9 @@ def test_a_study_is_called_one(capsys, elsewhere):
 WRONG_FOLDERS = {
     "a case": (["render", "mine.toml"], "a file, of which 'flexcage run mine.toml' makes one"),
     "a picture": (["wear", "a.png"], "'a.png' is not the folder of a run: it is a file."),
+    "a store": (["report", "runs/good/results.zarr"], "lies in that folder; name 'runs/good'"),
+    "a file of a run": (["wear", "runs/good/summary.json"], "in that folder; name 'runs/good'"),
+    "a netCDF": (["report", "x.nc"], "it is netCDF, which flexcage writes for other programs"),
     "a folder of runs": (["fatigue", "runs"], "it holds 'runs/good', 'runs/other'; name one of"),
     "a study": (["export", "study"], "it is that of a study, whose runs are in 'study/cases'"),
     "a comparison": (["report", "both"], "it is that of a comparison, whose runs are 'both/rigid'"),

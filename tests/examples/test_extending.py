@@ -259,7 +259,18 @@ def test_taken_names_and_wrong_parts_are_refused(mine):
         (lambda: laws.register_normal("bad", law_of_old), r"takes .*Fd, Fv\), but .*F, Fe, Fd, Fv"),
     ]
     if not os.environ.get("NUMBA_DISABLE_JIT"):
-        attempts.append((lambda: laws.register_normal("bad", unbound_law), "cannot be compiled"))
+        attempts += [
+            (
+                lambda: laws.register_normal("bad", unbound_law),
+                r"'bad' \(n, d.*name 'undefined_name",
+            ),
+            (
+                lambda: laws.register_normal("bad", law_that_returns),
+                r"returns a value.*\(line \d+ of",
+            ),
+            (lambda: laws.register_normal("bad", law_with_arrays), "makes an array of its own"),
+            (lambda: laws.register_friction("bad", friction_by_text), "numba does not know this"),
+        ]
     for attempt, words in attempts:
         with pytest.raises(InputError, match=words):
             attempt()
@@ -272,6 +283,18 @@ class FrictionLike:
 
 def law_of_old(n, d, v, onset, p, F, Fd, Fv):
     """Before laws had to give their elastic part."""
+
+
+def law_that_returns(n, d, v, onset, p, F, Fe, Fd, Fv):
+    return p[0] * d
+
+
+def law_with_arrays(n, d, v, onset, p, F, Fe, Fd, Fv):
+    F = p[0] * d  # noqa: F841
+
+
+def friction_by_text(n, u, p, g, dg):
+    g[0] = p["static"]
 
 
 def unbound_law(n, d, v, onset, p, F, Fe, Fd, Fv):

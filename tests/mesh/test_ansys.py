@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
 from flexcage.core.errors import InputError
 from flexcage.mesh.io import read_mesh
+from flexcage.modes.door.nodes import read_points
 
 pytest.importorskip("mapdl_archive")
 
@@ -46,6 +49,84 @@ def test_a_cage_in_millimetres(n1013, tmp_path, kind):
     assert set(read.groups) == set(mesh.groups)
     for name in ("pocket4_side-x", "pocket0_front", "land_inner", "end+x"):
         assert len(read.groups[name]) == len(mesh.groups[name]), name
+
+
+def of_workbench(path):
+    """The archive as Workbench's input file has its nodes: in small letters, with one whole number
+    a row, z last, and exponents of three digits."""
+    text = re.sub(
+        r"^( +\d+) +0 +0(( +-?[\d.]+E[+-]\d+){3})$",
+        lambda row: row[1] + "".join(f"{_three(v):>20s}" for v in row[2].split()),
+        path.read_text().replace("(3i9,6e21.13e3)", "(1i9,3e20.9e3)"),
+        flags=re.MULTILINE,
+    )
+    text = re.sub("NBLOCK,6,SOLID,.*", "nblock,3", text).replace("N,R5.3,LOC,       -1,", "-1")
+    path.write_text(text.replace("EBLOCK", "eblock").replace("SOLID", "solid"))
+    return path
+
+
+def _three(value):
+    digits, _, power = f"{float(value):.9E}".partition("E")
+    return f"{digits}E{int(power):+04d}"
+
+
+def test_nodes_in_the_format_of_workbench_keep_their_z(n1013, tmp_path):
+    mesh = n1013(fineness="coarse")
+    path = of_workbench(write_cdb(mesh, tmp_path / "ds.cdb"))
+    assert "(1i9,3e20.9e3)\n        1 " in path.read_text()
+    read = read_mesh(path, unit="mm")
+    assert read.volume == pytest.approx(mesh.volume, rel=1e-7)
+    points = read_points(path, where="modes.body_nodes")
+    assert np.abs(1e-3 * points.places - mesh.points).max() < 1e-9
+    lines = path.read_text().splitlines()
+    path.write_text("\n".join([*lines[:6], lines[6][:-4] + "****", *lines[7:]]))
+    with pytest.raises(InputError, match=r"line 7: '3 .*\*\*\*\*' is no node by the format \(1i9"):
+        read_mesh(path, unit="mm")
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (lambda text: text.replace("FINISH", "NSCALE,,ALL,,,2,2,2"), "the command NSCALE"),
+        (lambda text: text.replace("FINISH", "NROTAT,ALL"), "the command NROTAT"),
+        (lambda text: re.sub(r"^( +2 +0 +0 .*)$", rf"\1{90.0:21.13E}", text, flags=re.M),
+         "its nodes 2 have axes of their own"),
+    ],
+)  # fmt: skip
+def test_nodes_of_a_body_that_are_moved_or_turned_are_refused(n1013, tmp_path, change, words):
+    path = write_cdb(n1013(fineness="coarse"), tmp_path / "cage.cdb")
+    assert len(read_points(path, where="modes.body_nodes").numbers) == 1980
+    path.write_text(change(path.read_text()))
+    with pytest.raises(InputError, match=words):
+        read_points(path, where="modes.body_nodes")
+
+
+def test_nodes_on_edges_of_degenerate_bricks_belong_to_them(n1013, tmp_path, caplog):
+    """SOLID186 with corners I J K K M M M M: its nodes on edges are used, and may be curved."""
+    mesh = n1013(fineness="coarse")
+    path = write_cdb(mesh, tmp_path / "cage.cdb")
+    a, b, c, d = mesh.tets[0]
+    pairs = ((a, b), (b, c), (c, a), (a, d), (b, d), (c, d))
+    places = [1e3 * mesh.points[list(pair)].mean(axis=0) for pair in pairs]
+    places[0] = places[0] + 0.1  # mm
+    extra = [1981 + i for i in range(6)]
+    rows = [f"{n:9d}{0:9d}{0:9d}" + "".join(f"{x:21.13E}" for x in place)
+            for n, place in zip(extra, places)]  # fmt: skip
+    ij, jk, ki, im, jm, km = extra
+    i, j, k, m = (int(n) + 1 for n in mesh.tets[0])
+    nodes = [i, j, k, k, m, m, m, m, ij, jk, k, ki, m, m, m, m, im, jm, km, km]
+    head = [1, 2, 1, 1, 0, 0, 0, 0, 20, 0, 1]
+    numbers = [f"{n:9d}" for n in head + nodes]
+    text = path.read_text().splitlines()
+    at = next(n for n, line in enumerate(text) if line.startswith("EBLOCK"))
+    text[at + 2 : at + 3] = ["".join(numbers[:19]), "".join(numbers[19:])]
+    text[at - 1 : at - 1] = rows
+    whole = "\n".join(text).replace("ET,1,285", "ET,1,285\nET,2,186")
+    path.write_text(whole.replace("SOLID,1980,1980", "SOLID,1986,1986") + "\n")
+    read = read_mesh(path, unit="mm")
+    assert read.volume == pytest.approx(mesh.volume, rel=1e-9)
+    assert "no tetrahedron has" not in caplog.text
+    assert "edges of elements are curved" in caplog.text
 
 
 @pytest.mark.parametrize("end", ["N,R5.3,LOC,       -1,", "N,UNBL,LOC,       -1,"])

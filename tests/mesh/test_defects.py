@@ -176,7 +176,7 @@ def test_defects_that_close_a_pocket_together_are_refused(n1013):
     pinch = [CrossbeamDefect(crossbeam=k, displacement=d * MM) for k, d in ((3, -4.0), (4, 4.09))]
     with pytest.raises(InputError, match="invert .* elements"):
         n1013(*pinch, fineness="coarse")
-    pinch.append(CrossbeamDefect(crossbeam=4, displacement=0.3 * MM))
+    pinch.append(CrossbeamDefect(crossbeam=4, displacement=0.3 * MM, shape="shifted"))
     with pytest.raises(InputError, match="pocket 3"):
         n1013(*pinch, fineness="coarse")
 

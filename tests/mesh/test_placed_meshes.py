@@ -70,6 +70,29 @@ def about(axis, degrees):
     return Rotation.from_euler(axis, degrees, degrees=True).as_matrix()
 
 
+@pytest.mark.parametrize(("axis", "turn"), [("y", ("z", 90.0)), ("z", ("y", -90.0))])
+def test_a_mesh_about_another_axis_is_told_so(family, tmp_path, axis, turn):
+    mesh = moved(family.build(fineness="coarse"), turn=about(*turn))
+    with pytest.raises(InputError, match=f"the cage's axis is {axis}, but should be x"):
+        family.read(mesh, tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("length", "words"),
+    [
+        (25.4, r"is in inch; write it in mm"),
+        (10.0, r"is in cm; write it in mm"),
+        (1000.0, r'set mesh.file_unit = "m"'),
+    ],
+)
+def test_a_mesh_in_another_unit_is_told_which(family, tmp_path, length, words):
+    """A file of millimetres, whose numbers are of a unit that is so many times as long."""
+    mesh = family.build(fineness="coarse")
+    path = write_mesh(replace(mesh, points=1e3 * mesh.points / length), tmp_path / "cage.vtu")
+    with pytest.raises(InputError, match=words):
+        family.build(file=str(path), file_unit="mm")
+
+
 @pytest.mark.parametrize("fineness", ["coarse", "medium"])
 def test_a_mesh_in_its_place_is_taken_without_a_word(family, tmp_path, caplog, fineness):
     mesh = family.build(fineness=fineness)

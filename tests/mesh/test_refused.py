@@ -143,6 +143,33 @@ def test_nodes_of_no_element_are_told_of(tmp_path, caplog):
     assert "nodes that no tetrahedron has (1 of 5): 5; they" in caplog.text
 
 
+def test_a_comma_within_quotes_parts_no_name(tmp_path):
+    """As Abaqus/CAE writes names that a person gave."""
+    text = (
+        f'*PART, NAME="cage, rev 2"\n{HEAD}{SOLID}*ELSET, ELSET="side, outer"\n1\n'
+        '*SURFACE, TYPE=ELEMENT, NAME="end+x"\n"side, outer", S1\n*END PART\n'
+        '*INSTANCE, NAME="cage, rev 2-1", PART="cage, rev 2"\n1, 2, 3\n*END INSTANCE\n'
+    )
+    mesh = read_inp(deck(tmp_path, text))
+    assert mesh.surfaces["end+x"].tolist() == [[0, 1, 2]]
+    assert mesh.points[0].tolist() == [1.0, 2.0, 3.0]
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("cage.frd", "holds results of CalculiX"),
+        ("cage.exo", "a mesh whose groups are not read; save it as .msh"),
+        ("cage.CATPart", "a shape without a volume mesh"),
+        ("cage.hmascii", "a program whose decks are not read"),
+    ],
+)
+def test_a_mesh_of_a_program_that_is_not_read_is_told_what_to_write(tmp_path, name, words):
+    (tmp_path / name).write_text("nothing")
+    with pytest.raises(InputError, match=words):
+        read_mesh(tmp_path / name)
+
+
 def test_many_numbers_are_counted(tmp_path, caplog):
     sound(tmp_path, "".join(f"{i}, 3, 3, {i}\n" for i in range(10, 20)) + SOLID)
     assert "nodes that no tetrahedron has (11 of 15): 5, 10, 11, 12, 13 and 6 more;" in caplog.text

@@ -121,6 +121,8 @@ def test_readings_of_a_rig(tmp_path):
         ("Y,Z,X1,X2,X3\n1,2,3,4,5\n\n1,,3,4,5\n", "utf-8", "'' in line 4, column 'Z'; leave out"),
         ("Y,Z,X1,X2,X3\n1,2,nan,4,5\n", "utf-8", "'nan' in line 2, column 'X1'"),
         ("Y,Z,X1,X2,X3\n1,2,3,4,5\n", "utf-16", "is text in UTF-16; readings are text in UTF-8"),
+        ("Y,Z,X1,X2,X3,Y\n1,2,3,4,5,6\n", "utf-8", "have 2 columns 'Y'; leave one"),
+        ("Y,Z,X1,X2,X3\n1,2,3,-150,5\n", "utf-8", "go up to 150 mm.*write mm, as 0.15 for 150 um"),
         ("Y,Z,X1,X2,X3,Größe\n1,2,3,4,5,6\n", "latin-1", "line 1 has a character of another enc"),
     ],
 )  # fmt: skip
@@ -140,6 +142,15 @@ def test_times_of_a_rig(tmp_path):
     np.testing.assert_allclose(load_readings(file)[0], [1e-3, 2e-3, 3e-3, 4e-3, 5e-3])
     file.write_text("Y,Z,X1,X2,X3\n1,2,3,4,5\n")
     assert load_times(file) is None
+    for name in ("t [ms]", "Time", "time_s", "Zeit (s)", "seconds"):
+        file.write_text(f"{name},Y,Z,X1,X2,X3\n0,1,2,3,4,5\n")
+        with pytest.raises(InputError, match=re.escape(f"column '{name}'; name it t, and give se")):
+            load_times(file)
+    file.write_text("T,Y,Z,X1,X2,X3\n70,1,2,3,4,5\n")  # a temperature
+    assert load_times(file) is None
+    file.write_text("t,Y,Z,X1,X2,X3\n0,1,2,3,4,5\n0.1,0,0,0,0,0\n0.1,0,0,0,0,0\n")
+    with pytest.raises(InputError, match="do not rise: reading 3 is at 0.1 s, after 0.1 s"):
+        load_times(file)
 
 
 def turning_cage():

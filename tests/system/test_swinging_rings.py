@@ -286,7 +286,6 @@ def test_a_ring_swings_in_its_housing_with_its_mass(housing):
         ({**held("N1013"), "mount.kind": "bushing"}, "in a run supports stand still"),
         ({**held("N1013"), "mount.body": "h.npz"}, "but mount.body is given, and in a run"),
         ({"mount.body": "h.npz", "mount.kind": "bushing"}, "a housing takes its place"),
-        ({"mount.body": "h.npz", "solver.method": "bdf"}, "move by explicit steps"),
     ],
 )
 def test_what_does_not_go_together_is_said_in_a_sentence(changes, said):

@@ -52,7 +52,6 @@ def ball_start_between_bent_rings(
     assert bearing.rings is not None, "rings bend as in a static solution"
     start = ball_start(bearing, limit_force=limit_force, statics=statics, advance=advance)
     y, layout = bearing.rings.begun(start.y, bearing.layout), bearing.layout
-    layout.q(y)["elements"][:, :2] += bearing.rings.carried[:, :2]
     for ring in bearing.rings.start.rings:
         layout.ring_forces(y)[SIDES.index(ring.side)] = ring.force
         if ring.side == "outer":
@@ -61,7 +60,7 @@ def ball_start_between_bent_rings(
 
 
 def ball_places(bearing: Bearing, solution: StaticSolution) -> np.ndarray:
-    """y with ring and balls where the static solution has them, the cage centred on the balls.
+    """y with rings and balls where the static solution has them, the cage centred on the balls.
 
     A ball that bears nothing lies on the outer race at the angle of the others, or at none.
     """
@@ -74,7 +73,12 @@ def ball_places(bearing: Bearing, solution: StaticSolution) -> np.ndarray:
     q["elements"][:, 0] = model.outer.axial + reach * np.sin(angle)
     q["elements"][:, 1] = model.outer.centre + reach * np.cos(angle)
     q["elements"][:, 2] = 2.0 * pi * np.arange(layout.elements) / layout.elements
-    q["inner"][:5] = solution.displacement
+    q["inner"][:5], q["outer"][:5] = solution.displacement, solution.outer
+    x, r, psi = (q["elements"][:, k].copy() for k in range(3))
+    along, up, aside, skew, tilt = solution.outer  # balls go with the race
+    turned = tilt * np.cos(psi) - skew * np.sin(psi)
+    q["elements"][:, 0] += along - r * turned
+    q["elements"][:, 1] += up * np.cos(psi) + aside * np.sin(psi) + x * turned
     q["cage"][0] = q["elements"][:, 0].mean()
     q["quaternion"][0] = 1.0
     return y

@@ -35,6 +35,7 @@ from flexcage.system.layout import Layout
 from flexcage.system.left_behind import left_by_ribs
 from flexcage.system.newton import assemble, newton_step
 from flexcage.system.problem import Bearing
+from flexcage.system.ring import CLEARANCE
 from flexcage.system.ring_walls import lands_follow
 from flexcage.system.rings_in_motion import MovingRings, held_rings
 from flexcage.system.start import Advance, Start, StaticStart, made_room
@@ -111,7 +112,7 @@ def geometric_guess(model: RollerModel, layout: Layout) -> np.ndarray:
     q["elements"][:, 0] = _between_ribs(model, layout, y)
     if ring.free[0]:
         q["cage"][0] = q["inner"][0] if _guided_by_inner(model) else q["elements"][0, 0]
-    shift = mount.clearance if mount.loose else 0.0
+    shift = float(mount.bore[CLEARANCE]) if mount.loose else 0.0
     q["outer"][1:3] = shift * model.bodies.load_direction  # a ring in its bore lies on the ground
     psi = q["elements"][:, 2]
     q["elements"][:, 1] += q["outer"][1:3] @ np.stack([np.cos(psi), np.sin(psi)])
@@ -136,7 +137,11 @@ def _bearing_ribs(model: RollerModel) -> int:
 
 def _axial_place(model: RollerModel) -> float:
     """Where the axial load moves the inner ring, on the shaft's spring or against ribs [m]."""
-    load, stiffness, way = _axial_load(model), model.inner_ring.stiffness[0], _bearing_ribs(model)
+    load, stiffness, way = (
+        _axial_load(model),
+        model.inner_ring.stiffness[0, 0],
+        _bearing_ribs(model),
+    )
     by_spring = load / stiffness if stiffness > 0.0 else 0.0
     if not way:
         return by_spring
@@ -172,7 +177,7 @@ class _Frictionless:
         land = min(model.land.kind, DRY) if lands else NONE
         still = model._replace(
             bodies=model.bodies._replace(gravity=np.zeros(3), drag=np.zeros(2)),
-            inner_ring=model.inner_ring._replace(damping=np.zeros(6)),
+            inner_ring=model.inner_ring._replace(damping=np.zeros((6, 6))),
             inner=model.inner._replace(rolling=np.zeros(2)),
             outer=model.outer._replace(rolling=np.zeros(2)),
             land=model.land._replace(kind=land),
@@ -342,7 +347,8 @@ def _equilibrate(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np
         last = size
         step = system.step(y, yd, r, alpha, held)
         dq = layout.q(step)
-        shift = max(np.abs(dq["elements"][:, :2]).max(), np.abs(dq["inner"][:3]).max())
+        centres = dq["elements"][:, :2], dq["inner"][:3], dq["outer"][:3]
+        shift = max(np.abs(moved).max() for moved in centres)
         turn = np.abs(dq["elements"][:, 3:5]).max()
         share = min(1.0, _SHIFT / max(shift, 1e-30), _TURN / max(turn, 1e-30))
         ribs = _between_ribs(model, layout, y)

@@ -17,6 +17,7 @@ from flexcage.core.errors import InputError
 from flexcage.geometry.defect import defect_spec
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.compare import COARSE, check_place
+from flexcage.mesh.files.frame import check_unit
 from flexcage.mesh.io import read_mesh
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.ring import ring_of
@@ -58,6 +59,7 @@ def build_round_pockets(
 
     if options.file:
         mesh = read_mesh(options.file, pocket_count=pocket_count, unit=options.file_unit)
+        check_unit(mesh, 0.5 * cage.outside_diameter, options.file_unit, options.file)
         mesh = measure(mesh, cage, defects, pitch_radius=pitch_radius, source=options.file)
         check_place(mesh, lambda: built(COARSE), source=options.file)
         return mesh

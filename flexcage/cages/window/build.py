@@ -53,9 +53,11 @@ def _from_file(
 ) -> CageMesh:
     from flexcage.cages.window.measure import measure_file_defects
     from flexcage.mesh.compare import COARSE, check_place
+    from flexcage.mesh.files.frame import check_unit
     from flexcage.mesh.io import read_mesh
 
     mesh = read_mesh(options.file, pocket_count=pocket_count, unit=options.file_unit)
+    check_unit(mesh, 0.5 * cage.outside_diameter, options.file_unit, options.file)
     mesh = measure_file_defects(
         mesh, cage, defects, pitch_radius=0.5 * pitch_diameter, source=options.file
     )

@@ -12,7 +12,8 @@ together with its end face: it keeps its width, as a bent beam does, and its vol
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from math import copysign, cos, pi, sin
 from typing import Any, ClassVar
@@ -211,6 +212,10 @@ class CrossbeamDefect(WindowDefect):
             self.displacement, where, 0.5 * cage.pocket_width, "half of the pocket's width"
         )
 
+    @classmethod
+    def check_together(cls, own: Sequence[CrossbeamDefect], count: int) -> Iterator[Finding]:
+        return _find_repeated(f"Crossbeam {d.crossbeam} is {d.shape}" for d in own)
+
 
 @dataclass(frozen=True, kw_only=True)
 class SideBeamDefect(WindowDefect):
@@ -264,6 +269,12 @@ class SideBeamDefect(WindowDefect):
             reason = "half of the pocket's length"
         yield from self.check_number(where, count)
         yield from _check_displacement(self.displacement, where, limit, reason)
+
+    @classmethod
+    def check_together(cls, own: Sequence[SideBeamDefect], count: int) -> Iterator[Finding]:
+        return _find_repeated(
+            f"The side beam {d.side} of pocket {d.pocket} is displaced" for d in own
+        )
 
 
 def clamped_beam(s: np.ndarray, length: float) -> np.ndarray:
@@ -319,6 +330,13 @@ def _check_sizes(defects: Sequence[WindowDefect], cage: WindowCage, pocket_count
                 where="defects",
                 value=float(sizes[k]),
             )
+
+
+def _find_repeated(told: Iterable[str]) -> Iterator[Finding]:
+    """A beam that is displaced more than once in one way."""
+    for what, times in Counter(told).items():
+        if times > 1:
+            yield "defects", f"{what} {times} times; give one defect with its displacement.", times
 
 
 def _check_displacement(

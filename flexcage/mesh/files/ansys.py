@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.core.errors import InputError, package_lacks
+from flexcage.mesh.files.nblock import nodes_of
 from flexcage.mesh.files.raw import RawMesh, Refused, group_name, lines_of, listed, text_of
 
 _TEN = (87, 92, 98, 187, 227, 232, 237)  # element types that are ten-node tetrahedra
@@ -31,10 +32,15 @@ _CHANGES = frozenset(
     "EINTF NUMMRG CM CMEDIT CMGRP CMMOD CMDELE TRANSFER VMESH VSWEEP AMESH VGEN AGEN /INPUT "
     "CDREAD *USE *DO EMTGEN ESURF".split()
 )
+# those of them that say nothing of nodes
+_OF_ELEMENTS = frozenset("E EN EMORE EGEN ESYM ENSYM EMODIF EDELE EINTF ESURF EMTGEN".split())
+_TURNS = frozenset(("NROTAT", "NANG"))  # the axes along which nodes move
 _COMMAND = re.compile(r"\s*([/*]?[A-Za-z]+)\s*,")
 _LAST = re.compile(r"^\s*(N|EN)\s*,\s*(?:R\d|UNBL)[^,]*,[^,]*,\s*-1\s*,?\s*$", re.IGNORECASE)
 _HEAD = 10  # numbers of an element before its nodes
 _FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+# of the 20 nodes of a brick whose corners are I J K K M M M M: those of ten of a tetrahedron
+_FALLEN = (0, 1, 2, 4, 8, 9, 11, 16, 17, 18)
 _SIGNS = {"_px": "+x", "_mx": "-x"}
 
 
@@ -58,11 +64,13 @@ def read_archive(path: Path, *, where: str) -> Any:
 
 def read_cdb(path: Path) -> RawMesh:
     """The mesh of an archive. Raises ``Refused`` for what is not followed."""
-    _refuse_commands(path)
+    text = text_of(path)
+    refuse_commands(text)
     archive = read_archive(path, where="mesh.file")
-    _refuse_twice("node", archive.nnum)
+    node_numbers, points = nodes_of(archive, text)
+    _refuse_twice("node", node_numbers)
     _refuse_twice("element", archive.enum)
-    row = {int(n): i for i, n in enumerate(archive.nnum)}
+    row = {int(n): i for i, n in enumerate(node_numbers)}
     solids: dict[int, list[list[int]]] = {4: [], 10: []}
     numbers: dict[int, list[int]] = {4: [], 10: []}
     flat: dict[int, list[int]] = {}  # surface elements by number
@@ -76,7 +84,6 @@ def read_cdb(path: Path) -> RawMesh:
             solids[len(shape)].append([row[n] for n in shape])
             numbers[len(shape)].append(int(number))
     blocks = [np.array(rows) for rows in solids.values() if rows]
-    points = np.asarray(archive.nodes[:, :3], float)
     boundary = _boundary(np.vstack([b[:, :4] for b in blocks] or [np.empty((0, 4), int)]))
     by_nodes = {
         _name(name): np.asarray(np.isin(boundary, _rows(_name(name), nodes, row)).all(axis=1))
@@ -89,20 +96,21 @@ def read_cdb(path: Path) -> RawMesh:
         points=points,
         solids=tuple(blocks),
         surfaces={name: triangles for name, triangles in surfaces.items() if len(triangles)},
-        point_numbers=np.asarray(archive.nnum, np.int64),
+        point_numbers=node_numbers,
         solid_numbers=np.array([n for of in numbers.values() for n in of], np.int64),
         no_surfaces={n: "a component without a face" for n, t in surfaces.items() if not len(t)},
     )
 
 
-def _refuse_commands(path: Path) -> None:
-    """Refuse commands that make, move or remove nodes, elements or components."""
-    for line, text in enumerate(lines_of(text_of(path)), start=1):
-        found = _COMMAND.match(text)
-        if not found or found[1].upper() not in _CHANGES or _LAST.search(text):
+def refuse_commands(text: str, *, nodes_alone: bool = False) -> None:
+    """Refuse commands that make, move or remove nodes, elements or components of surfaces."""
+    changes = _CHANGES - _OF_ELEMENTS | _TURNS if nodes_alone else _CHANGES
+    for line, row in enumerate(lines_of(text), start=1):
+        found = _COMMAND.match(row)
+        if not found or found[1].upper() not in changes or _LAST.search(row):
             continue
         component = found[1].upper().startswith("CM")
-        if not component or group_name(_name(text.split(",")[1])):
+        if not component or group_name(_name(row.split(",")[1])):
             raise Refused(
                 f"line {line}: the command {found[1].upper()} is not followed, and changes nodes, "
                 "elements or components; run it in Ansys, and write the archive again with "
@@ -153,6 +161,8 @@ def _tetrahedron(kind: int, nodes: list[int]) -> list[int] | None:
     if kind in _NO_SOLIDS:
         return None
     corners = list(dict.fromkeys(nodes[:8]))
+    if len(nodes) == 20 and nodes[2] == nodes[3] and len({*nodes[4:8]}) == 1:
+        return [nodes[i] for i in _FALLEN]  # with its nodes on edges
     if kind not in _BRICKS or len(corners) != 4:
         raise Refused(
             f"it has elements of type {kind} that are no tetrahedra; mesh the cage with tetrahedra "

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -39,6 +40,7 @@ GAP HEAT GENERATION; SURFACE PROPERTY; SURFACE PROPERTY ASSIGNMENT; SURFACE SMOO
 MATRIX INPUT; MATRIX ASSEMBLE; USER ELEMENT; MATRIX; UEL PROPERTY; SUBSTRUCTURE PROPERTY;
 VALUES AT INFINITY; DESIGN VARIABLES; END PART; END ASSEMBLY
 """
+_COMMA = re.compile(r',(?=(?:[^"]*"[^"]*")*[^"]*$)')
 _LARGEST = 2**62  # number of a node or an element
 HARMLESS = frozenset(" ".join(name.split()) for name in _HARMLESS.split(";"))
 #: How its own program writes out a mesh that a deck makes by rules.
@@ -98,14 +100,19 @@ def blocks(text: str) -> Iterator[Block]:
             if block.keyword == "STEP":
                 return
         else:
-            block.rows.append([v.strip().strip("\"'") for v in line.split(",")])
+            block.rows.append([v.strip().strip("\"'") for v in _fields(line)])
             block.lines.append(number)
     if block.keyword:
         yield block
 
 
+def _fields(text: str) -> list[str]:
+    """What stands between commas; those within a name in quotes part nothing."""
+    return text.split(",") if '"' not in text else _COMMA.split(text)
+
+
 def _begun(text: str, line: int) -> Block:
-    head, *parameters = text[1:].split(",")
+    head, *parameters = _fields(text[1:])
     pairs = [p.partition("=") for p in parameters]
     values = {" ".join(k.upper().split()): v.strip().strip("\"'") for k, _, v in pairs}
     return Block(" ".join(head.upper().split()), line, values)

@@ -28,15 +28,23 @@ _MESHES = {
     ".med": f"is a mesh of Salome; {_BY_GMSH}",
     ".vtk": "is a VTK file of the older kind; save it in ParaView as .vtu, with its cell arrays",
     **dict.fromkeys(
-        (".stl", ".step", ".stp", ".igs", ".iges", ".brep", ".obj", ".ply", ".geo"),
+        (".stl", ".step", ".stp", ".igs", ".iges", ".brep", ".obj", ".ply", ".geo", ".3mf", ".sat",
+         ".x_t", ".x_b", ".catpart", ".sldprt", ".prt", ".ipt"),
         f"{_SHAPE}as .msh (gmsh) or .inp",
     ),
-    **dict.fromkeys((".k", ".key", ".rad", ".hm", ".ans"), f"is of a program whose decks are not "
-                    f"read; {_ABAQUS}"),
+    **dict.fromkeys((".k", ".key", ".rad", ".hm", ".cmdb", ".hmascii", ".ans"),
+                    f"is of a program whose decks are not read; {_ABAQUS}"),
     **dict.fromkeys((".cae", ".odb"), f"{_BINARY}write its input file (.inp) in Abaqus/CAE, by "
                     "Job, Write Input"),
     **dict.fromkeys((".db", ".rst", ".mechdb", ".wbpj"), f"{_BINARY}write an archive (.cdb) in "
                     "Ansys by CDWRITE,DB"),
+    ".frd": "holds results of CalculiX, without surfaces; name the deck (.inp) that it is of, with "
+    "its surfaces",
+    **dict.fromkeys(
+        (".exo", ".e", ".cgns", ".xdmf", ".mesh", ".meshb", ".neu", ".ugrid", ".su2"),
+        "is a mesh whose groups are not read; save it as .msh (gmsh) or .vtu, with the surfaces "
+        "named",
+    ),
     ".mph": f"{_BINARY}export the mesh from COMSOL as Nastran or .vtu, and name its surfaces",
 }  # fmt: skip
 

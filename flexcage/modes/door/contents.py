@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import logging
+from collections import Counter
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -11,8 +13,10 @@ import numpy as np
 
 from flexcage.core.arrays import Damaged
 from flexcage.core.errors import InputError
-from flexcage.mesh.files.raw import Refused
+from flexcage.mesh.files.raw import Refused, listed
 from flexcage.modes.door.body import MODAL, ReducedBody
+
+log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,14 +84,38 @@ MASS = ("MASS", "M", "MAAX", "MAA", "MGG", "MJJ", "MXX", "M2GG")
 NODES = ("NODES", "POINTS", "XYZ")
 SHAPES = ("SHAPES", "PHI", "PHIG", "PHG")
 DOFS = ("DOFS", "LABELS")
+_DAMPING = frozenset("C DAMPING BAAX BAA BGG BXX B2GG K4AAX K4AA K4GG K4XX".split())
 #: Kinds of coordinates by the number that stands for them in files of numbers alone.
 KINDS = (
     "free", "centrifugal", "crossbeam", "land", "attachment", "constraint", "residual", "elastic",
 )  # fmt: skip
 
 
+def refuse_twice(names: Iterable[str], path: Path, *, where: str) -> None:
+    """InputError for two matrices of one name, capitals or not: which of them counts?"""
+    count = Counter(name.upper() for name in names)
+    if twice := [name for name, times in count.items() if times > 1]:
+        raise InputError(
+            f"{path} has {count[twice[0]]} matrices '{twice[0]}'; leave one of them.",
+            where=where,
+            value=twice[0],
+        )
+
+
+def warn_of_damping(found: Mapping[str, Any], path: Path) -> None:
+    """Say that a damping matrix is not read."""
+    if names := [name for name in found if name.upper() in _DAMPING]:
+        log.warning(
+            "%s has a damping matrix (%s), which is not read: give modes.damping of a cage, "
+            "mount.damping of a housing",
+            path, ", ".join(names),
+        )  # fmt: skip
+
+
 def from_matrices(found: Mapping[str, Any], path: Path, *, where: str) -> Contents:
     """Contents of a file that is a table of named matrices."""
+    refuse_twice(found, path, where=where)
+    warn_of_damping(found, path)
     stiffness, mass = picked(found, STIFFNESS), picked(found, MASS)
     if stiffness is None:
         if {"DATA", "INDICES", "INDPTR"} <= {name.upper() for name in found}:
@@ -114,10 +142,14 @@ def from_matrices(found: Mapping[str, Any], path: Path, *, where: str) -> Conten
     return Contents(
         stiffness=stiffness,
         mass=mass,
-        labels=None if labels is None else _whole(_wide(labels, 2, "DOFS", path, where)),
+        labels=None
+        if labels is None
+        else _whole(_wide(labels, 2, "DOFS", path, where), "DOFS", path, where),
         points=None
         if nodes is None
-        else _points(_wide(nodes, 3, "NODES", path, where), picked(found, ("NUMBERS",))),
+        else _points(
+            _wide(nodes, 3, "NODES", path, where), picked(found, ("NUMBERS",)), path, where
+        ),
         shapes=None if shapes is None else _wide(shapes, size, "SHAPES", path, where),
         kind=() if kinds is None else _kinds(np.ravel(_dense(kinds)), path, where=where),
     )
@@ -188,8 +220,19 @@ def _wide(matrix: Any, columns: int, name: str, path: Path, where: str) -> np.nd
     )
 
 
-def _points(places: np.ndarray, numbers: Any | None) -> Points:
-    given = np.arange(1, len(places) + 1) if numbers is None else np.ravel(_whole(numbers))
+def _points(places: np.ndarray, numbers: Any | None, path: Path, where: str) -> Points:
+    if numbers is None:
+        return Points(numbers=np.arange(1, len(places) + 1), places=places)
+    given = np.ravel(_whole(numbers, "NUMBERS", path, where))
+    found, count = np.unique(given, return_counts=True)
+    if len(given) != len(places) or (count > 1).any():
+        twice = f", among them {listed(found[count > 1])} twice" if (count > 1).any() else ""
+        raise InputError(
+            f"{path}: NUMBERS has {len(given)} numbers{twice}, but should have one of its own for "
+            f"each of the {len(places)} NODES.",
+            where=where,
+            value=str(path),
+        )
     return Points(numbers=given, places=places)
 
 
@@ -197,8 +240,16 @@ def _dense(matrix: Any) -> np.ndarray:
     return np.asarray(matrix.toarray() if hasattr(matrix, "toarray") else matrix)
 
 
-def _whole(matrix: Any) -> np.ndarray:
-    return np.rint(_dense(matrix)).astype(np.int64)
+def _whole(matrix: Any, name: str, path: Path, where: str) -> np.ndarray:
+    values = _dense(matrix)
+    found = np.rint(values).astype(np.int64)
+    if (odd := values[found != values]).size:
+        raise InputError(
+            f"{path}: {name} has {odd.flat[0]:g}, but should have whole numbers.",
+            where=where,
+            value=float(odd.flat[0]),
+        )
+    return found
 
 
 def _kinds(values: np.ndarray, path: Path, *, where: str) -> tuple[str, ...]:

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
+from flexcage.core.binding import path_of
 from flexcage.core.errors import InputError, unwritable
 from flexcage.core.missing import no_file
 from flexcage.core.writing import written
@@ -65,7 +66,7 @@ def read_body(
     ``nodes``: a deck that says where its nodes are, for files that do not (.bdf, .dat, .inp, .cdb).
     ``units`` of both. InputError, which names ``where``, for what is no body.
     """
-    path = Path(path)
+    path = path_of(path, where)
     ending = path.suffix.lower()
     if ending not in FORMATS:
         none = f"is no file of a reduced body that can be read: {', '.join(FORMATS)}"
@@ -90,7 +91,7 @@ def write_body(body: ReducedBody, path: str | Path, **options: Any) -> Path:
 
     ``binary`` False writes an .op4 as text.
     """
-    path = Path(path)
+    path = path_of(path, "path")
     if path.suffix.lower() not in FORMATS:
         raise InputError(
             f"'{path}' should end in {' or '.join(FORMATS)}.", where="out", value=str(path)
@@ -125,6 +126,7 @@ def _body(contents: Contents, points: Points | None, path: Path, where: str) -> 
     else:
         _check_from_one(labels, points.numbers, path, where)
         dofs = _by_place(labels, points.numbers)
+    _refuse_same(dofs, points.numbers, path, where)
     place = {int(n): i for i, n in enumerate(points.numbers)}
     sets = {name: np.array([place[n] for n in v if n in place]) for name, v in points.sets.items()}
     stiffness, mass = contents.stiffness, contents.mass
@@ -147,6 +149,19 @@ def _body(contents: Contents, points: Points | None, path: Path, where: str) -> 
         numbers=np.asarray(points.numbers),
         source=str(path),
     )
+
+
+def _refuse_same(dofs: np.ndarray, numbers: np.ndarray, path: Path, where: str) -> None:
+    """Refuse two coordinates that are one component of one node."""
+    found, count = np.unique(dofs[dofs[:, 0] != MODAL], axis=0, return_counts=True)
+    if (count > 1).any():
+        node, component = found[np.argmax(count > 1)]
+        raise InputError(
+            f"{path}: {count.max()} of its coordinates are component {component + 1} of node "
+            f"{numbers[node]}; each component of a node is one coordinate.",
+            where=where,
+            value=int(numbers[node]),
+        )
 
 
 def _check_from_one(labels: np.ndarray, numbers: np.ndarray, path: Path, where: str) -> None:

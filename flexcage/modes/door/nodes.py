@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from io import StringIO
 from pathlib import Path
@@ -18,6 +19,7 @@ from flexcage.modes.door.contents import Points, unreadable
 from flexcage.modes.door.nastran import nastran
 
 _NOT_FOLLOWED = ("INCLUDE", "GRDSET", "GRIDB", "GRIDG", "EGRID", "GRIDA")
+_END = re.compile(r"^ENDDATA\b", re.MULTILINE | re.IGNORECASE)  # what follows is no part of a deck
 _SYSTEMS = ("CORD1R", "CORD1C", "CORD1S", "CORD3G")  # pyYeti reads CORD2R, CORD2C and CORD2S
 
 
@@ -47,7 +49,7 @@ def read_grids(path: Path, *, where: str, needed: bool = True) -> Points | None:
     """
     bulk = nastran("bulk")
     try:
-        text = text_of(path).expandtabs(8)
+        text = _END.split(text_of(path).expandtabs(8))[0]
         table = np.asarray(bulk.rdgrids(StringIO(text)), float)
         some = table.ndim == 2 and bool(table.size)
         systems = some and bool(table[:, [1, 5]].any())
@@ -76,8 +78,6 @@ def _refuse_entries(text: str, *, systems: bool) -> None:
                 f"line {line}: the entry {name[0]} is not followed, and gives, places or turns "
                 "grids; write all GRID entries into one file, in the basic system"
             )
-        if name == ["ENDDATA"]:
-            return
 
 
 def _refuse_twice(numbers: np.ndarray) -> None:
@@ -110,15 +110,19 @@ def _abaqus(path: Path, *, where: str) -> Points:
 
 
 def _ansys(path: Path, *, where: str) -> Points:
-    from flexcage.mesh.files.ansys import read_archive
+    from flexcage.mesh.files.ansys import read_archive, refuse_commands
+    from flexcage.mesh.files.nblock import nodes_of, refuse_turned
 
     archive: Any = read_archive(path, where=where)
+    text = text_of(path)
+    try:
+        refuse_commands(text, nodes_alone=True)
+        refuse_turned(archive)
+        numbers, places = nodes_of(archive, text)
+    except Refused as error:
+        raise unreadable(path, error, where=where) from error
     sets = {str(n).lower(): np.asarray(v) for n, v in archive.node_components.items()}
-    return Points(
-        numbers=np.asarray(archive.nnum, np.int64),
-        places=np.asarray(archive.nodes[:, :3], float),
-        sets=sets,
-    )
+    return Points(numbers=numbers, places=places, sets=sets)
 
 
 _READERS: dict[str, Callable[..., Points | None]] = {

@@ -16,6 +16,7 @@ from flexcage.modes.door.contents import (
     Contents,
     from_matrices,
     kind_codes,
+    refuse_twice,
     to_matrices,
     unreadable,
 )
@@ -28,10 +29,11 @@ def read(path: Path, *, where: str) -> Contents:
     """The matrices of the file, whatever their format."""
     module = _module()
     try:
-        found = module.load(str(path), into="dct", justmatrix=True, sparse=None)
+        names, matrices, *_ = module.load(str(path), into="list", sparse=None)
     except Exception as error:  # of all kinds on broken files
         raise unreadable(path, error, where=where) from error
-    return from_matrices(found, path, where=where)
+    refuse_twice(names, path, where=where)
+    return from_matrices(dict(zip(names, matrices)), path, where=where)
 
 
 def write(body: ReducedBody, path: Path, *, binary: bool = True) -> None:

@@ -26,11 +26,15 @@ from flexcage.modes.door.contents import (
     labels_of,
     numbers_of,
     picked,
+    refuse_twice,
     unreadable,
+    warn_of_damping,
 )
 from flexcage.modes.door.nastran import nastran
 from flexcage.modes.door.nodes import read_grids
 
+# the first entry of a matrix, which has 0 where the others have a grid
+_HEADS = re.compile(r"^DMIG\*?[ ,]+(\w+)[ ,]+0[ ,]", re.MULTILINE | re.IGNORECASE)
 _COPIES = 6.0  # of a matrix while it is read
 
 
@@ -39,6 +43,7 @@ def read(path: Path, *, where: str) -> Contents:
     module = _module()
     try:
         text = text_of(path).expandtabs(8)
+        refuse_twice(_HEADS.findall(text), path, where=where)
         _check_room(text)
         found = module.rddmig(StringIO(text), square=True, expanded=False)
         grids = read_grids(path, where=where, needed=False)
@@ -46,6 +51,7 @@ def read(path: Path, *, where: str) -> Contents:
         if hasattr(error, "where"):
             raise
         raise unreadable(path, error, where=where) from error
+    warn_of_damping(found, path)
     stiffness, mass = picked(found, STIFFNESS), picked(found, MASS)
     if stiffness is None:
         return from_matrices(found, path, where=where)  # says what is missing
