@@ -116,7 +116,7 @@ def test_a_shoulder_and_the_cage_push_each_other_alike():
     push = {name: without[name] - with_it[name] for name in ("cage", "inner", "outer")}
     assert np.linalg.norm(force) > 10.0 and not none.any()
     np.testing.assert_allclose(push["cage"], force, rtol=1e-9)
-    inner, outer = push["inner"][:3], np.append(0.0, push["outer"])
+    inner, outer = push["inner"][:3], push["outer"][:3]
     assert np.linalg.norm(outer) > 1.0
     size = np.linalg.norm(outer) + np.linalg.norm(inner)
     np.testing.assert_allclose(push["cage"] + inner + outer, 0.0, atol=1e-9 * size)
@@ -251,8 +251,8 @@ def test_forces_on_spheres_are_slopes_of_the_energy_too(rims, sides, place, chan
 
 
 def test_all_forces_balance():
-    """Friction, damping and rolling resistance included: balls clear of the outer race, inner ring
-    and cage push each other only."""
+    """Friction, damping and rolling resistance included: balls, both rings and the cage push each
+    other only."""
     bearing = ball_bearing(
         contacts=contacts_of("restitution", "step_coulomb"), lubricant=Lubricant(oil_fraction=0.0)
     )
@@ -295,4 +295,4 @@ def test_all_forces_balance():
         moment = moment + np.cross(q[name][:3], pushed[name][:3]) + pushed[name][3:]
     moment = moment + np.cross(q["cage"], pushed["cage"]) + A @ pushed["omega"]
     assert np.abs(moment).max() < 1e-9 * np.abs(np.cross(at, forces)).sum()
-    assert (report.pocket_friction > 0.0).any() and (report.race[:, :, 0] > 0.0).all()
+    assert (report.pocket_friction > 0.0).any() and (report.race[:, :, 0] > 0.0).any(axis=0).all()
