@@ -33,7 +33,8 @@ class Family:
     instead. All else is heavy: functions without arguments that import what they return. None
     where a family has nothing of the kind: no static solution (``statics``), or neither equations
     of motion (``motion``) nor a record of them (``recording``), no pictures (``shapes``), no rule
-    by which ``flexcage new`` infers insides (``inside``), no rings that bend (``rings``).
+    by which ``flexcage new`` infers insides (``inside``), no rings that bend (``rings``), none that
+    bend in a run (``bending``).
     """
 
     name: str
@@ -49,6 +50,7 @@ class Family:
     shapes: Callable[[], ShapesOf] | None  # profiles of rings and elements, for pictures
     inside: Callable[[], Inside] | None  # inferred from a catalogue's ratings
     rings: Callable[[], SectionsOf] | None = None  # sections of rings that bend
+    bending: Callable[[], BendingMotion] | None = None  # motion between rings that bend
     other_designs: Mapping[str, str] = field(default_factory=dict)
 
     @property
@@ -104,7 +106,7 @@ def motion_of(bearing: Bearing) -> Motion[Any]:
 
 def bending_of(bearing: Bearing) -> BendingMotion:
     """What moves a bearing's elements between rings that bend; InputError without it."""
-    bending = motion_of(bearing).bending
+    bending = family_of(bearing).bending
     if bending is None:
         raise InputError(
             f"rings of a {bearing.kind} do not bend in a run: its family '{bearing.family}' has no "

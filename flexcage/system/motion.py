@@ -104,7 +104,6 @@ class Motion(Generic[M]):
     another process at the same time, and follow the laws in ``law``; the longest first. ``faces``
     names the faces of a pocket, ``ribs`` what else an element may touch besides its races: a
     bearing has the first of them, as many as ``new_work`` makes room for.
-    ``bending`` imports how they move between rings that bend; None: they do not.
     ``linearise(t, y, yd, data)`` fills the tangent, in plain Python that is compiled when an
     implicit method asks for it; None: mode TANGENT of ``evaluate`` does.
     """
@@ -118,7 +117,6 @@ class Motion(Generic[M]):
     ribs: tuple[str, ...]
     start: FindStart
     error_weights: Callable[[M, Layout, float], np.ndarray]  # see ``scales.shared_weights``
-    bending: Callable[[], BendingMotion] | None = None
     linearise: Callable[..., None] | None = None
     implicit_share: float = 0.0  # "auto" takes implicit steps below this many solver.stable_step
     implicit_weights: Callable[[M, Layout, float], np.ndarray] | None = None  # None: error_weights

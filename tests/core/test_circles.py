@@ -12,8 +12,6 @@ OPEN = {
     ("flexcage.system.statics.table", "flexcage.system.statics.solution"),
     ("flexcage.system.motion", "flexcage.system.problem"),
     ("flexcage.system.motion", "flexcage.system.start"),
-    ("flexcage.bearings.ball.motion", "flexcage.bearings.ball.bending"),
-    ("flexcage.bearings.cylindrical_roller.motion", "flexcage.bearings.cylindrical_roller.bending"),
 }
 
 

@@ -92,4 +92,7 @@ MOTION = Motion(
     implicit_weights=MOTION_OF_BALLS.implicit_weights,
 )
 
-bearing_family(replace(BALLS, name="magnet", types=(MagnetBearing,), motion=lambda: MOTION))
+# between rings that bend nothing pulls: their equations are those of other balls
+bearing_family(
+    replace(BALLS, name="magnet", types=(MagnetBearing,), motion=lambda: MOTION, bending=None)
+)

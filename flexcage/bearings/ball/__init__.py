@@ -28,6 +28,7 @@ FAMILY = Family(
     rubbing=lambda: slots.rubbing,
     statics=lambda: slots.statics,
     motion=lambda: slots.motion,
+    bending=lambda: slots.bending,
     recording=lambda: slots.recording,
     shapes=lambda: slots.shapes,
     inside=lambda: slots.inside,

@@ -189,7 +189,6 @@ BENDING = BendingMotion(
         error_weights=with_ring_weights(ball_weights),
         implicit_share=0.0,
         linearise=None,
-        bending=None,
     ),
     model=BendingBallModel,
 )

@@ -9,15 +9,9 @@ from flexcage.bearings.ball.scales import ball_weights, implicit_ball_weights
 from flexcage.bearings.ball.start import ball_start
 from flexcage.bearings.ball.tangent import linearise
 from flexcage.system.equations import shared_equations
-from flexcage.system.motion import BendingMotion, Motion, parts_type
+from flexcage.system.motion import Motion, parts_type
 
 BallParts = parts_type("BallParts", BallModel, __name__)
-
-
-def _bending() -> BendingMotion:
-    from flexcage.bearings.ball.bending import BENDING
-
-    return BENDING
 
 
 MOTION = Motion(
@@ -30,7 +24,6 @@ MOTION = Motion(
     ribs=("next ball",),
     start=ball_start,
     error_weights=ball_weights,
-    bending=_bending,
     linearise=linearise,
     implicit_share=3.5,
     implicit_weights=implicit_ball_weights,

@@ -1,3 +1,4 @@
+from flexcage.bearings.ball.bending import BENDING as bending
 from flexcage.bearings.ball.figures import FIGURES as figures
 from flexcage.bearings.ball.inside import INSIDE as inside
 from flexcage.bearings.ball.motion import MOTION as motion
@@ -10,6 +11,7 @@ from flexcage.bearings.ball.statics import balls_of as statics
 from flexcage.bearings.ball.variables import VARIABLES as variables
 
 __all__ = [
+    "bending",
     "figures",
     "inside",
     "motion",

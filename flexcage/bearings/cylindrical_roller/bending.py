@@ -281,7 +281,6 @@ BENDING = BendingMotion(
         start=roller_start_between_bent_rings,
         error_weights=with_ring_weights(roller_weights),
         implicit_share=0.0,
-        bending=None,
     ),
     model=BendingRollerModel,
 )

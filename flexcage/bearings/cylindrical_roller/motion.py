@@ -9,15 +9,9 @@ from flexcage.bearings.cylindrical_roller.scales import roller_weights
 from flexcage.bearings.cylindrical_roller.start import roller_start
 from flexcage.modes.basis import FACES
 from flexcage.system.equations import shared_equations
-from flexcage.system.motion import BendingMotion, Motion, parts_type
+from flexcage.system.motion import Motion, parts_type
 
 RollerParts = parts_type("RollerParts", RollerModel, __name__)
-
-
-def _bending() -> BendingMotion:
-    from flexcage.bearings.cylindrical_roller.bending import BENDING
-
-    return BENDING
 
 
 MOTION = Motion(
@@ -30,6 +24,5 @@ MOTION = Motion(
     ribs=("rib +x", "rib -x", "counter rib +x", "counter rib -x"),
     start=roller_start,
     error_weights=roller_weights,
-    bending=_bending,
     implicit_share=1.0,
 )

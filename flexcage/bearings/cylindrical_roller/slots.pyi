@@ -1,3 +1,4 @@
+from flexcage.bearings.cylindrical_roller.bending import BENDING as bending
 from flexcage.bearings.cylindrical_roller.figures import FIGURES as figures
 from flexcage.bearings.cylindrical_roller.inside import INSIDE as inside
 from flexcage.bearings.cylindrical_roller.motion import MOTION as motion
@@ -10,6 +11,7 @@ from flexcage.bearings.cylindrical_roller.statics import rollers_of as statics
 from flexcage.bearings.cylindrical_roller.variables import VARIABLES as variables
 
 __all__ = [
+    "bending",
     "figures",
     "inside",
     "motion",
