@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import pytest
-from bearing_runs import assembled
-from flexible_parts import flexible_cage
 
 from flexcage.contacts.spec import Contacts
 
@@ -12,6 +10,9 @@ from flexcage.contacts.spec import Contacts
 @pytest.fixture(scope="session")
 def bearing_of(build_parts):
     """bearing_of(flexible={...}, contacts=..., constraints=..., ...) -> a Bearing of the N1013."""
+
+    from bearing_runs import assembled  # of rollers, which tests of balls can do without
+    from flexible_parts import flexible_cage
 
     def make(*, contacts=None, flexible=None, constraints=(), **specs):
         contacts = contacts or Contacts()
