@@ -36,7 +36,7 @@ FAMILIES = {
     ),
     "cylindrical_roller": Left(
         "N1013", "7010C-PI", "RollerBearing", "which is not registered",
-        r"roller|n1013|\bnu\d|\bnj\d|window|crossbeam|bearing_runs|bearing_of|contact_kernels import land",
+        r"roller|n1013|\bnu\d|\bnj\d|window|crossbeam|bearing_runs|bearing_of|kernels import land",
         "roller*.py",
     ),
 }  # fmt: skip
