@@ -31,7 +31,7 @@ from flexcage.core.errors import InputError
 from flexcage.core.jit import LEAN, kernel, kernel_of, why_not_compiled
 from flexcage.core.kernel_values import KernelType
 from flexcage.core.registry import add, check_free
-from flexcage.core.vectors import TURN
+from flexcage.core.vectors import TURN, xyz
 from flexcage.system import spec as specs
 from flexcage.system.data import AXIAL, MASS, TRANSVERSE
 from flexcage.system.layout import CONSTRAINTS as REACTIONS
@@ -77,7 +77,7 @@ def cage_tilt(t, y, at, p, G, g, h):
     """No parameters. The cage's axis a = A(q/|q|) e_x turns by da/dt = w_z A e_y - w_y A e_z with w
     in the cage's frame; its angles about y and z, -a_z and a_y where they are small, are held."""
     q, u, b = y[at.cage_q + QUATERNION :], y[at.cage_u + TURN :], at.cage_b + TURN
-    w, i, j, k = q[0], q[1], q[2], q[3]
+    w, (i, j, k) = q[0], xyz(q[1:])
     of_unit = 1.0 / (w * w + i * i + j * j + k * k)
     g[0], g[1] = 2.0 * (w * j - i * k) * of_unit, 2.0 * (i * j + w * k) * of_unit
     a_yy, a_yz = 1.0 - 2.0 * (i * i + k * k) * of_unit, 2.0 * (j * k - w * i) * of_unit

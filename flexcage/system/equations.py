@@ -35,6 +35,7 @@ from flexcage.system.layout import (
     N_LAMBDA,
 )
 from flexcage.system.ring import (
+    Rows,
     inner_of,
     outer_of,
     outer_rows,
@@ -57,11 +58,10 @@ def shared_equations(t, y, yd, d, law, out, mode):
     cage_equations(y, yd, d, out, mode)
     _inner_equations(t, y, yd, d, out, mode)
     at = fields(d.places)
-    outer_rows(
-        fields(d.outer_ring), outer_of(y, d), array_from(yd, at.outer_q),
-        array_from(yd, at.outer_u), d, array_from(out, at.outer_q), array_from(out, at.outer_u),
-        mode == TANGENT, mode >= REPORT,
-    )  # fmt: skip
+    rates = Rows(array_from(yd, at.outer_q), array_from(yd, at.outer_u))
+    rows = Rows(array_from(out, at.outer_q), array_from(out, at.outer_u))
+    sloped, reported = mode == TANGENT, mode >= REPORT
+    outer_rows(fields(d.outer_ring), outer_of(y, d), rates, rows, d, sloped, reported)
     law[HOLD](t, y, yd, d, law[CONSTRAINT_EQUATIONS], out, mode)
 
 
@@ -153,10 +153,10 @@ def _inner_equations(t, y, yd, d, out, mode):
     at, work, rep = fields(d.places), fields(d.scratch), fields(d.report)
     ring, lam, g = inner_of(y, d), array_from(y, at.lam), array_from(out, at.lam)
     q, u, mu = ring.q, ring.u, array_from(y, at.lam + N_LAMBDA)
-    r_q, r_u = array_from(out, at.inner_q), array_from(out, at.inner_u)
-    qd, ud = array_from(yd, at.inner_q), array_from(yd, at.inner_u)
-    push = array_from(work.border, ring.b)
-    ring_rows(body, q, u, qd, ud, push, bodies.gravity, bodies.moments, work.S[0], r_q, r_u)
+    rates = Rows(array_from(yd, at.inner_q), array_from(yd, at.inner_u))
+    rows = Rows(array_from(out, at.inner_q), array_from(out, at.inner_u))
+    r_q, r_u, push = rows.q, rows.u, array_from(work.border, ring.b)
+    ring_rows(body, ring, rates, push, bodies.gravity, bodies.moments, work.S[0], rows)
     r_q[0] -= mu[0]
     r_q[Q_SKEW] -= mu[1]
     r_q[Q_TILT] -= mu[2]

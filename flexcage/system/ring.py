@@ -48,6 +48,13 @@ class Ring(NamedTuple):
     b: int  # its first row in the border
 
 
+class Rows(NamedTuple):
+    """A ring's part of y' or of the residual."""
+
+    q: np.ndarray  # (6,) of its coordinates
+    u: np.ndarray  # (6,) of its velocities
+
+
 @part
 def inner_of(y, d):
     """The inner ring in y; ``set_axes`` comes before."""
@@ -100,12 +107,13 @@ def ring_rates(q, u, out):
 
 
 @part
-def ring_rows(body, q, u, qd, ud, push, gravity, given, rates, r_q, r_u):
+def ring_rows(body, ring, yd, push, gravity, given, rates, rows):
     """Rows of a ring that ``push`` (6,) acts on, force and moment in space, and ``given`` moments
-    about y and z."""
+    about y and z; ``yd`` and ``rows`` are ``Rows``, ``rates`` a buffer."""
+    q, u, ud, r_u = ring.q, ring.u, yd.u, rows.u
     frame = ring_rates(q, u, rates)
     for c in range(RIGID):
-        r_q[c] = qd[c] - rates[c]
+        rows.q[c] = yd.q[c] - rates[c]
     mass, Ia, It = body.inertia[MASS], body.inertia[AXIAL], body.inertia[TRANSVERSE]
     cx, sx, ce, se = cos(q[Q_SKEW]), sin(q[Q_SKEW]), cos(q[Q_TILT]), sin(q[Q_TILT])
     Mx, My, Mz = push[TURN], push[TURN + 1] + given[0], push[TURN + 2] + given[1]
@@ -202,12 +210,12 @@ def _in_bore(body, q, u, b, held, tan, sloped):
 
 
 @part
-def outer_rows(body, ring, qd, ud, d, r_q, r_u, sloped, reported):
+def outer_rows(body, ring, yd, rows, d, sloped, reported):
     """Rows of the outer ring on its mount; slopes if ``sloped``, energies if ``reported``."""
     work, tan, gravity = fields(d.scratch), fields(d.tangent), fields(d.bodies).gravity
-    q, u, b = ring.q, ring.u, ring.b
+    q, u, b, r_u = ring.q, ring.u, ring.b, rows.u
     push, held, pull = array_from(work.border, b), work.held, work.pull
-    ring_rows(body, q, u, qd, ud, push, gravity, (0.0, 0.0), work.S[0], r_q, r_u)
+    ring_rows(body, ring, yd, push, gravity, (0.0, 0.0), work.S[0], rows)
     stored, lost = ring_springs(body, q, u, pull)
     for c in range(RIGID):
         r_u[c] -= pull[c]
@@ -221,7 +229,7 @@ def outer_rows(body, ring, qd, ud, d, r_q, r_u, sloped, reported):
         _spring_slopes(body, b, tan)
     for c in range(RIGID):
         if body.free[c] == 0:
-            r_u[c] = ud[c]
+            r_u[c] = yd.u[c]
             if sloped:
                 _hold_row(b + c, tan)
     if reported:

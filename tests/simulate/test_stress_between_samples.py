@@ -108,7 +108,7 @@ def test_forces_at_steps_are_those_of_the_peaks(run):
     # steps past a sample, and before the last one, are among those of a peak
     near = np.max([np.roll(normal, shift, axis=0) for shift in (-1, 0, 1)], axis=0)
     share = (near / np.maximum(peak, 1e-9))[clear]
-    assert share.min() > 0.85 and 0.95 < np.minimum(share, 1.0).mean() < 0.995
+    assert share.min() > 0.8 and 0.95 < np.minimum(share, 1.0).mean() < 0.995
 
 
 def test_the_stress_of_a_step_is_that_of_the_history(run):

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import xarray as xr
 from stress_cage import CAGE, POCKETS, make_recovery
 
 from flexcage.cages.window.interface import rigid_interface
@@ -10,7 +9,6 @@ from flexcage.core.errors import InputError
 from flexcage.modes.spec import ModesSpec
 from flexcage.stress.fields import StressFields
 from flexcage.stress.history import stress_history
-from flexcage.stress.loads import LandForces
 from flexcage.stress.operators import von_mises
 from flexcage.stress.recovery import CageLoads, StressRecovery
 
@@ -170,10 +168,3 @@ def test_a_rigid_cage_is_refused(recovery):
     rigid = rigid_interface(CAGE, pocket_count=POCKETS)
     with pytest.raises(InputError, match="no stress"):
         StressRecovery(recovery.model, recovery.basis, rigid, places=recovery.places)
-
-
-def test_a_run_without_land_forces_round_the_cage_is_refused():
-    """Earlier runs had the resultant alone."""
-    old = xr.Dataset({"land_force": (("time", "axis"), np.zeros((2, 3)))})
-    with pytest.raises(InputError, match="'land_station_force'.* run the case again"):
-        LandForces(old, inner=True)

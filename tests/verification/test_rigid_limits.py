@@ -27,7 +27,7 @@ from flexcage.system.start import find_start
 
 WINDOW = {
     "solver.duration": "1.5 ms",  # trajectories part soon after
-    "solver.tolerance": "0.0003 um",
+    "solver.tolerance": "0.0001 um",
     "output.vibration_rate": "200 kHz",
     "output.rate": "200 kHz",
 }

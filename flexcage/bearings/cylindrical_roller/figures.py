@@ -79,6 +79,8 @@ def slip_section(ds: xarray.Dataset, bearing: BearingNumbers, slip_range: SlipRa
 
 def force_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
     """What counter ribs bear; not shown of designs without any."""
+    if "counter_rib_force" not in ds:  # a part of a run
+        return ()
     force = ds["counter_rib_force"].transpose("time", "element", "rib").values
     plus, minus = np.moveaxis(force.sum(axis=1), -1, 0)
     idle = not force.any()
