@@ -91,15 +91,17 @@ def flexible_cage(specs: CageSections) -> CageReduction:
 
 def bearing_in_motion(specs: CaseSections, mesh: CageMesh, cage: CageReduction | None) -> Bearing:
     """Bodies, contacts and equations of motion, which are compiled when first asked for."""
+    seat = compliance_of(specs.mount, specs.bearing)
+    rings = _moving_rings(specs, seat)
     if cage is None:
         body = rigid_from_tets(mesh.points, mesh.tets, specs.cage.material.density)
-        return _assembled(specs, body, _rigid_interface(specs), _moving_rings(specs))
+        return _assembled(specs, body, _rigid_interface(specs), rings, seat)
     body = flexible_from_reduction(cage, specs.modes.damped_as(specs.cage.warm_material))
-    return _assembled(specs, body, cage.interface, _moving_rings(specs))
+    return _assembled(specs, body, cage.interface, rings, seat)
 
 
 def bearing_to_compile(specs: CaseSections) -> Bearing:
-    """The same with any body for its cage: kernels are alike for all."""
+    """The same with any body for its cage, and a seat that stands: kernels are alike for all."""
     body = rigid_from_tets(np.eye(4, 3, -1), np.array([[0, 1, 2, 3]]), 1.0)
     return _assembled(specs, body, _rigid_interface(specs))
 
@@ -111,15 +113,14 @@ def _rigid_interface(specs: CaseSections) -> Any:
 
 def bent_rings(specs: CaseSections) -> tuple[BentRing, ...]:
     """The rings that bend, as a run begins; none if both are rigid."""
-    rings = _moving_rings(specs)
+    rings = _moving_rings(specs, compliance_of(specs.mount, specs.bearing))
     return rings.start.rings if rings else ()
 
 
-def _moving_rings(specs: CaseSections) -> MovingRings | None:
+def _moving_rings(specs: CaseSections, seat: np.ndarray | None) -> MovingRings | None:
     if not specs.rings_bend:
         return None
     rings = replace(_rings_of(specs), heavier=heaviest_load(specs.load))
-    seat = compliance_of(specs.mount, specs.bearing)
     stands = specs.mount.kind == "fixed" and seat is None
     return moving_rings(rings, _statics(specs, rings, seat), stands=stands)
 
@@ -139,10 +140,11 @@ def _statics(
 
 
 def _assembled(
-    specs: CaseSections, body: FlexibleBody, interface: Any, rings: MovingRings | None = None
-) -> Bearing:
+    specs: CaseSections, body: FlexibleBody, interface: Any, rings: MovingRings | None = None,
+    seat: np.ndarray | None = None,
+) -> Bearing:  # fmt: skip
     """``interface``: what moves in the cage's pockets; ``rings``: those that bend, any if they are
-    left out."""
+    left out; ``seat``: the outer ring's compliance, if it yields."""
     motion, output = motion_of(specs.bearing), specs.output
     bends = specs.rings_bend
     model = motion.build_model(
@@ -150,7 +152,6 @@ def _assembled(
         lubricant=specs.lubricant, drive=specs.drive, load=specs.load, mount=specs.mount,
         seed=specs.seed,
     )  # fmt: skip
-    seat = compliance_of(specs.mount, specs.bearing)
     if seat is not None:
         late = DAMPED * specs.outer_ring.relaxation
         model = model._replace(outer_ring=in_housing(model.outer_ring, seat, late))
@@ -167,6 +168,7 @@ def _assembled(
     return Bearing(
         motion, specs.bearing, model, specs.contacts, layout, constraints=specs.constraints,
         block=output.block, stride=output.vibration_ratio, interval=1.0 / output.rate, rings=rings,
+        seat=seat,
     )  # fmt: skip
 
 
@@ -180,9 +182,7 @@ def assembled_start(
     """
 
     def statics() -> StaticSolution:
-        if bearing.rings:
-            return bearing.rings.start
-        return _statics(specs, seat=compliance_of(specs.mount, specs.bearing))
+        return bearing.rings.start if bearing.rings else _statics(specs, seat=bearing.seat)
 
     limit = specs.limits.assembly_force
     with progress(1.0, "start") as bar:

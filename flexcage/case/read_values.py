@@ -9,9 +9,7 @@ from flexcage.case.files import file_paths
 from flexcage.case.presets import load_preset
 from flexcage.case.sections import CaseSections
 from flexcage.case.unread import reasons
-from flexcage.core.binding import (
-    default_of,
-)
+from flexcage.core.binding import default_of
 from flexcage.core.unread import why_unread
 
 

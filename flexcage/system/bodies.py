@@ -221,9 +221,9 @@ def inner_ring_of(bearing, drive: Drive, load: Load, *, free_axially: bool) -> R
     tilts = load.tilt == "free"
     free = np.array([free_axially, True, True, drive.kind == "shaft", tilts, tilts])
     stiffness, damping = np.zeros((2, 6, 6))
-    sprung = HELD_VELOCITIES[:3]
-    stiffness[sprung, sprung] = load.stiffness * free[list(sprung)]
-    damping[sprung, sprung] = load.damping * free[list(sprung)]
+    sprung = list(HELD_VELOCITIES[:3])
+    stiffness[sprung, sprung] = load.stiffness * free[sprung]
+    damping[sprung, sprung] = load.damping * free[sprung]
     return RingBody(
         inertia=np.array([bearing.inner_ring_mass + load.shaft_mass, *bearing.inner_ring_inertia]),
         free=free.astype(np.int64),

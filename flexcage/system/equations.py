@@ -35,7 +35,6 @@ from flexcage.system.layout import (
     N_LAMBDA,
 )
 from flexcage.system.ring import (
-    Rows,
     inner_of,
     outer_of,
     outer_rows,
@@ -43,6 +42,7 @@ from flexcage.system.ring import (
     ring_rows,
     ring_slopes,
     ring_springs,
+    rows_at,
     set_axis,
 )
 from flexcage.system.time_functions import table_integral, table_value, wave_integral, wave_value
@@ -58,8 +58,7 @@ def shared_equations(t, y, yd, d, law, out, mode):
     cage_equations(y, yd, d, out, mode)
     _inner_equations(t, y, yd, d, out, mode)
     at = fields(d.places)
-    rates = Rows(array_from(yd, at.outer_q), array_from(yd, at.outer_u))
-    rows = Rows(array_from(out, at.outer_q), array_from(out, at.outer_u))
+    rates, rows = rows_at(yd, at.outer_q, at.outer_u), rows_at(out, at.outer_q, at.outer_u)
     sloped, reported = mode == TANGENT, mode >= REPORT
     outer_rows(fields(d.outer_ring), outer_of(y, d), rates, rows, d, sloped, reported)
     law[HOLD](t, y, yd, d, law[CONSTRAINT_EQUATIONS], out, mode)
@@ -116,6 +115,16 @@ def react(F, R, wrench, lever, border, b):
 
 
 @part
+def push_pair(i, wrench, R, lever, b, d):
+    """Add a contact's wrench to element i, and its reaction to the body that is ``lever`` from it
+    (as ``react``)."""
+    work = fields(d.scratch)
+    for c in range(RIGID):
+        work.wrenches[i, c] += wrench[c]
+    react(fields(d.pose).F, R, wrench, lever, work.border, b)
+
+
+@part
 def clear_sums(border, d, mode):
     """Set to zero what the contacts add to."""
     tan, rep = fields(d.tangent), fields(d.report)
@@ -141,31 +150,20 @@ def clear_sums(border, d, mode):
 
 
 @part
-def add_to_element(total, wrench):
-    for c in range(RIGID):
-        total[c] += wrench[c]
-
-
-@part
 def _inner_equations(t, y, yd, d, out, mode):
     """Rows of the inner ring under load and drive, and of the constraints that hold it."""
     bodies, body, tan = fields(d.bodies), fields(d.inner_ring), fields(d.tangent)
     at, work, rep = fields(d.places), fields(d.scratch), fields(d.report)
     ring, lam, g = inner_of(y, d), array_from(y, at.lam), array_from(out, at.lam)
     q, u, mu = ring.q, ring.u, array_from(y, at.lam + N_LAMBDA)
-    rates = Rows(array_from(yd, at.inner_q), array_from(yd, at.inner_u))
-    rows = Rows(array_from(out, at.inner_q), array_from(out, at.inner_u))
+    rates, rows = rows_at(yd, at.inner_q, at.inner_u), rows_at(out, at.inner_q, at.inner_u)
     r_q, r_u, push = rows.q, rows.u, array_from(work.border, ring.b)
     ring_rows(body, ring, rates, push, bodies.gravity, bodies.moments, work.S[0], rows)
     r_q[0] -= mu[0]
     r_q[Q_SKEW] -= mu[1]
     r_q[Q_TILT] -= mu[2]
-    load, axial, target, shaft = (
-        radial_load(bodies, t),
-        axial_load(bodies, t),
-        speed_at(bodies, t),
-        0.0,
-    )
+    load, axial, target = radial_load(bodies, t), axial_load(bodies, t), speed_at(bodies, t)
+    shaft = 0.0
     if bodies.by_shaft != 0:
         shaft = bodies.shaft[SHAFT_STIFFNESS] * (drive_angle(bodies, t) - q[Q_SPIN])
         shaft += bodies.shaft[SHAFT_DAMPING] * (target - u[U_SPIN])

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.core.jit import part
-from flexcage.core.vectors import RIGID, TURN
+from flexcage.core.vectors import RIGID
 
 PER_ELEMENT = 6  # coordinates, and velocities, of a rolling element
 # a ring: centre (x, y, z), skew, tilt, spin; velocity of its centre, angular velocity in its
@@ -68,7 +68,19 @@ class Body:
     name: str
     coordinates: int
     velocities: int
-    modes: int = 0
+
+    @property
+    def modes(self) -> int:
+        """So many modes."""
+        return self.velocities - RIGID
+
+    def views(self, own: np.ndarray, turn: str, end: int) -> dict[str, np.ndarray]:
+        """Named views of its coordinates or velocities: all of a ring's; of a floating frame its
+        centre's, what stands behind that up to ``end``, called ``turn``, and its modes'."""
+        if self.coordinates == RING:
+            return {self.name: own}
+        centre, modes = own[..., :QUATERNION], own[..., end:]
+        return {self.name: centre, turn: own[..., QUATERNION:end], "modes": modes}
 
 
 def ring(name: str) -> Body:
@@ -78,7 +90,7 @@ def ring(name: str) -> Body:
 
 def floating(name: str, modes: int) -> Body:
     """A body in a floating frame, with so many modes."""
-    return Body(name, FRAME + modes, RIGID + modes, modes)
+    return Body(name, FRAME + modes, RIGID + modes)
 
 
 def bodies_of_bearing(modes: int) -> tuple[Body, ...]:
@@ -167,12 +179,7 @@ class Layout:
         at = self.places
         views = {"elements": self._elements(y[..., : at.bodies_q])}
         for body, first, _, _ in self._each(at.bodies_q, at.bodies_u, 0):
-            own = y[..., first : first + body.coordinates]
-            if body.coordinates == RING:
-                views[body.name] = own
-            else:
-                views[body.name] = own[..., :QUATERNION]
-                views |= {"quaternion": own[..., QUATERNION:FRAME], "modes": own[..., FRAME:]}
+            views |= body.views(y[..., first : first + body.coordinates], "quaternion", FRAME)
         return views
 
     def u(self, y: np.ndarray) -> dict[str, np.ndarray]:
@@ -183,14 +190,9 @@ class Layout:
 
     def border(self, v: np.ndarray) -> dict[str, np.ndarray]:
         """Named views of what v has of every body's velocities, from the first of all bodies on."""
-        views = {}
+        views: dict[str, np.ndarray] = {}
         for body, _, _, first in self._each(0, 0, 0):
-            own = v[..., first : first + body.velocities]
-            if body.coordinates == RING:
-                views[body.name] = own
-            else:
-                views[body.name] = own[..., :TURN]
-                views |= {"omega": own[..., TURN:RIGID], "modes": own[..., RIGID:]}
+            views |= body.views(v[..., first : first + body.velocities], "omega", RIGID)
         return views
 
     def _elements(self, own: np.ndarray) -> np.ndarray:

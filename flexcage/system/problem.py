@@ -189,11 +189,14 @@ class Bearing:
         self, motion: Motion[Any], spec: BearingSpec, model: Any, contacts: Contacts,
         layout: Layout, *, constraints: Sequence[Constraint] = (), block: int = 250,
         stride: int = 4, interval: float = 20e-6, rings: MovingRings | None = None,
+        seat: np.ndarray | None = None,
     ) -> None:  # fmt: skip
         """``motion`` moves bearings of the ``spec``'s family; ``layout.held`` holds the
-        ``constraints.names_of`` the constraints; ``rings`` are those that bend."""
+        ``constraints.names_of`` the constraints; ``rings`` are those that bend, ``seat`` (5, 5) is
+        the compliance of the outer ring's, if it yields."""
         model = model._replace(cage=marked(model.cage))
         self.motion, self.spec, self.layout, self.rings = motion, spec, layout, rings
+        self.seat = seat
         self.reaction_units = units_of(constraints)
         work = self.motion.new_work(model, layout)
         held, rows = constraints_of(constraints, model, layout)

@@ -58,21 +58,26 @@ class Rows(NamedTuple):
 @part
 def inner_of(y, d):
     """The inner ring in y; ``set_axes`` comes before."""
-    at, axes = fields(d.places), fields(d.scratch).rings
-    return Ring(
-        array_from(y, at.inner_q), array_from(y, at.inner_u), axes[0, RING_AXIS],
-        axes[0, RING_SPIN], at.inner_b,
-    )  # fmt: skip
+    at = fields(d.places)
+    return _ring_at(y, at.inner_q, at.inner_u, at.inner_b, fields(d.scratch).rings[0])
 
 
 @part
 def outer_of(y, d):
     """The outer ring in y."""
-    at, axes = fields(d.places), fields(d.scratch).rings
-    return Ring(
-        array_from(y, at.outer_q), array_from(y, at.outer_u), axes[1, RING_AXIS],
-        axes[1, RING_SPIN], at.outer_b,
-    )  # fmt: skip
+    at = fields(d.places)
+    return _ring_at(y, at.outer_q, at.outer_u, at.outer_b, fields(d.scratch).rings[1])
+
+
+@part
+def _ring_at(y, q, u, b, axes):
+    return Ring(array_from(y, q), array_from(y, u), axes[RING_AXIS], axes[RING_SPIN], b)
+
+
+@part
+def rows_at(v, q, u):
+    """A ring's ``Rows`` of y' or the residual, with its places."""
+    return Rows(array_from(v, q), array_from(v, u))
 
 
 @part

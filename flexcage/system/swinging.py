@@ -1,9 +1,8 @@
 """Outer rings that swing: coordinates with mass, and supports that hold a ring here and there.
 
 A ring on supports ovalises at low frequencies, and is far softer then than its contacts: without
-inertia it would follow them within a tenth of a microsecond. So its low modes a have mass, and
-so have the motions of a ring in a housing. They stand in space, as the outer ring and its supports
-do. Race and supports are displaced by
+inertia it would follow them within a tenth of a microsecond. So its low modes a have mass. They
+stand in space, as the outer ring and its supports do. Race and supports are displaced by
 
     w_i = sum_m phi_m cos or sin(n_m psi_i) a_m + w'_i      y_k = sum_m chi_km a_m + y'_k
 

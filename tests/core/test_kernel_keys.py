@@ -4,7 +4,7 @@ import shutil
 
 import numba
 import pytest
-from warm_process import said_and_told, warm_process
+from warm_process import said_and_told
 
 pytestmark = pytest.mark.skipif(
     bool(numba.config.DISABLE_JIT), reason="plain Python compiles nothing"
@@ -165,12 +165,6 @@ EDITS = {
     "a comment": ("kernels.py", "\n@kernel\ndef whole", "# text\n\n@kernel\ndef whole", "", 0),
     "another file": ("unread.py", "VALUE = 1", "VALUE = 2", "", 0),
 }  # fmt: skip
-
-
-@pytest.fixture(scope="module")
-def warm():
-    with warm_process() as process:
-        yield process
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numba
 import pytest
-from warm_process import said_and_told, warm_process
+from warm_process import said_and_told
 
 import flexcage
 from flexcage.core.kernel_keys import COMPILER
@@ -60,12 +60,6 @@ EDITS = {
     ),
     "a constant": (("contacts/evaluation.py", r"\nREPORT = 2", "\nREPORT = 2.5"),),
 }  # fmt: skip
-
-
-@pytest.fixture(scope="module")
-def warm():
-    with warm_process() as process:
-        yield process
 
 
 @pytest.fixture(scope="module")

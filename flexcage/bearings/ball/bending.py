@@ -13,7 +13,6 @@ from flexcage.bearings.ball.motion import MOTION
 from flexcage.bearings.ball.residual import (
     BESIDE,
     SHARED,
-    add_to_ring,
     ball_in_pocket,
     ball_rows,
     on_race,
@@ -48,6 +47,7 @@ from flexcage.system.bending import (
     with_ring_weights,
 )
 from flexcage.system.data import FAMILY_PARTS, INNER_RACE, OUTER_RACE
+from flexcage.system.equations import push_pair
 from flexcage.system.layout import of_element
 from flexcage.system.motion import BendingMotion, bending_model, parts_type
 from flexcage.system.ring import inner_of, outer_of
@@ -96,7 +96,7 @@ def _inner_race(i, qi, ui, ring, s, d, law, mode):
     yielded = _yielded(INNER_RACE, i, ball, race, s, laws, sl, rings)
     if groove_contact(yielded, race, laws, sl, pair.wrench, mode, work.sums):
         _bear(INNER_RACE, i, yielded, race, sl, rings)
-        add_to_ring(i, ball.centre, ring.b, d)
+        push_pair(i, pair.wrench, work.unit, ball.centre, ring.b, d)
     if mode >= REPORT:
         report_race(i, INNER_RACE, work.sums, fields(d.report))
 
@@ -115,7 +115,7 @@ def _outer_race(i, qi, ui, ring, s, d, law, mode):
         if fields(d.swings).push.shape[0] > 0:
             for c in range(2):
                 fields(d.swings).total[i, c] = -pair.wrench[c]
-        add_to_ring(i, ball.centre, ring.b, d)
+        push_pair(i, pair.wrench, work.unit, ball.centre, ring.b, d)
     if mode >= REPORT:
         report_race(i, OUTER_RACE, work.sums, fields(d.report))
 

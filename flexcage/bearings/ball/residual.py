@@ -62,7 +62,7 @@ from flexcage.system.data import (
     RACE_FRICTION,
     ROLLING_RESISTANCE,
 )
-from flexcage.system.equations import add_to_element, clear_sums, react
+from flexcage.system.equations import clear_sums, push_pair
 from flexcage.system.floating import modes_at, push_modes
 from flexcage.system.layout import FRAME, QUATERNION, of_element
 from flexcage.system.ring import inner_of, outer_of, set_axes
@@ -150,18 +150,9 @@ def _on_race(i, qi, ui, ring, groove, race, d, law, mode):
     zero(pair.wrench)
     ball = on_race(i, qi, ui, ring, race, d)
     if groove_contact(ball, groove, laws, sl, pair.wrench, mode, work.sums):
-        add_to_ring(i, ball.centre, ring.b, d)
+        push_pair(i, pair.wrench, work.unit, ball.centre, ring.b, d)
     if mode >= REPORT:
         report_race(i, race, work.sums, fields(d.report))
-
-
-@part
-def add_to_ring(i, P, b, d):
-    """Add the pair's wrench to ball i and to a ring, from which P leads to the ball and whose
-    border begins at b."""
-    wrench, work = fields(d.pair).wrench, fields(d.scratch)
-    react(fields(d.pose).F, work.unit, wrench, P, work.border, b)
-    add_to_element(work.wrenches[i], wrench)
 
 
 @part
@@ -192,9 +183,8 @@ def ball_in_pocket(i, qi, ui, Rc, Vc, modes, d, law, mode):
     laws, sl = Laws(law[POCKET_LAW], law[POCKET_RUBS]), fields(d.slices).row[0]
     hit = pocket_wall_contact(i, ball, modes, data, laws, sl, pw, pair.wrench, mode, sums)
     if hit:
-        add_to_element(work.wrenches[i], pair.wrench)
         at = fields(d.places)
-        react(fields(d.pose).F, work.A, pair.wrench, ball.centre, work.border, at.cage_b)
+        push_pair(i, pair.wrench, work.A, ball.centre, at.cage_b, d)
         push_modes(data, i, pw, work.border[modes_at(at.cage_b + RIGID, at.modes)])
     if mode >= REPORT:
         _report_pocket(i, hit, sums, pw, fields(d.report), mode)

@@ -57,7 +57,7 @@ from flexcage.system.data import (
     POCKET_DAMPING,
     POCKET_FRICTION,
 )
-from flexcage.system.equations import add_to_element, react
+from flexcage.system.equations import push_pair
 from flexcage.system.floating import modes_at, push_modes
 from flexcage.system.layout import FRAME, of_element
 from flexcage.system.ring import inner_of, outer_of
@@ -104,8 +104,7 @@ def _pocket(i, qi, Rc, Vc, modes, d, law, mode):
     sl, at = fields(d.slices).row[0], fields(d.places)
     hit = pocket_contact(i, roller, cage, data, laws, sl, pw, pair, mode, sums)
     if hit:
-        add_to_element(work.wrenches[i], pair.wrench)
-        react(F, A, pair.wrench, xyz(D), border, at.cage_b)
+        push_pair(i, pair.wrench, A, xyz(D), at.cage_b, d)
         push_modes(data, i, pw, border[modes_at(at.cage_b + RIGID, at.modes)])
     if mode == TANGENT:
         tan.active[i] = 1 if hit else 0

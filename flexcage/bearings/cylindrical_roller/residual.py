@@ -67,7 +67,7 @@ from flexcage.system.data import (
     ROLLING_RESISTANCE,
     TRANSVERSE,
 )
-from flexcage.system.equations import add_to_element, clear_sums, react
+from flexcage.system.equations import clear_sums, push_pair
 from flexcage.system.layout import QUATERNION, of_element
 from flexcage.system.ring import inner_of, outer_of, set_axes
 
@@ -202,8 +202,7 @@ def add_to_ring(i, P, b, d, mode):
     """Add the pair's wrench to roller i and to a ring, from which P leads to the roller and whose
     border begins at b."""
     pair, work, F = fields(d.pair), fields(d.scratch), fields(d.pose).F
-    add_to_element(work.wrenches[i], pair.wrench)
-    react(F, work.unit, pair.wrench, xyz(P), work.border, b)
+    push_pair(i, pair.wrench, work.unit, xyz(P), b, d)
     if mode == TANGENT:
         copy_into(work.R[0], F)
         copy_into(work.R[1], F)
