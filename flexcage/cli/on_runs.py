@@ -258,7 +258,7 @@ def wear_command(args: argparse.Namespace) -> int:
     run, law = load_run(existing_run(args.run)), None
     if args.coefficient:
         k = parse(args.coefficient, "mm^3/(N*m)", where="--coefficient")
-        law = WearLaw(material=run.case.cage.material.name, coefficient=k)
+        law = WearLaw(material=run.case.its_cage.material.name, coefficient=k)
     say(run.wear(law).table(args.hours))
     return 0
 

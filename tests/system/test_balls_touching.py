@@ -7,9 +7,9 @@ import pytest
 from ball_parts import PITCH, ball_bearing, contacts_of
 from bearing_runs import march
 
-from flexcage.bearings.ball.neighbours import NEXT_BALL
-from flexcage.system.data import IN_CONTACTS, POCKET_DAMPING, POCKET_FRICTION
+from flexcage.system.data import IN_CONTACTS, NEIGHBOUR_DAMPING, NEIGHBOUR_FRICTION
 
+NEXT_BALL = 3  # place of the contact: behind races and the pocket
 PAIRS = ((3, 4), (17, 0))  # the last ball's next one is the first
 
 
@@ -93,7 +93,7 @@ def test_momentum_and_its_moment_are_kept_with_friction_and_damping():
     moving(bearing, y)
     force, moment = wrenches(bearing, y)
     report = bearing.data.work.report
-    assert np.abs(force).max() > 50.0 and report.power[POCKET_FRICTION] < -1e-3
+    assert np.abs(force).max() > 50.0 and report.power[NEIGHBOUR_FRICTION] < -1e-3
     for i, j in PAIRS:
         np.testing.assert_allclose(force[i], -force[j], atol=1e-12 * np.abs(force).max())
         np.testing.assert_allclose(moment[i], -moment[j], atol=1e-12 * np.abs(moment).max())
@@ -104,7 +104,7 @@ def test_power_is_what_the_channels_say():
     u, layout = moving(bearing, y), bearing.layout
     bearing.residual(0.0, y, np.zeros_like(y), mode=2)
     power = float(np.sum(bearing.data.work.scratch.wrenches * u))
-    losses = bearing.data.work.report.power[[POCKET_DAMPING, POCKET_FRICTION]].sum()
+    losses = bearing.data.work.report.power[[NEIGHBOUR_DAMPING, NEIGHBOUR_FRICTION]].sum()
 
     def energy(t):
         moved = y.copy()

@@ -26,14 +26,13 @@ from flexcage.contacts.state import (
 from flexcage.core.jit import fields, outlined, part
 from flexcage.core.vectors import cross, dot, minus, times, turn_of, xyz
 from flexcage.geometry.hertz import PointContact
-from flexcage.system.data import IN_CONTACTS, POCKET, POCKET_DAMPING, POCKET_FRICTION
+from flexcage.system.data import IN_CONTACTS, NEIGHBOUR_DAMPING, NEIGHBOUR_FRICTION, POCKET
 from flexcage.system.layout import of_element
 
 if TYPE_CHECKING:
     from flexcage.bearings.ball.bearing import BallBearing
     from flexcage.contacts.spec import Contacts
 
-NEXT_BALL = POCKET + 1  # place of a ball's contact with the next one, behind that with its pocket
 _INWARDS = 0.05  # of the pitch radius: no ball comes nearer to the axis
 _NEAR = 1.05  # balls so many diameters apart or nearer are looked at
 _POINT = 1.5  # exponent of a Hertz contact
@@ -70,7 +69,13 @@ def touch_neighbours(t, y, yd, d, law, out, mode):
             else:
                 _push(i, j, ahead, q, u, d, law, mode)
         elif mode >= REPORT:
-            fields(d.report).approach[i, NEXT_BALL] = 0.0
+            fields(d.report).approach[i, _next_ball(fields(d.report))] = 0.0
+
+
+@part
+def _next_ball(rep):
+    """Place of a ball's contact with the next one, behind that with its pocket, if it has one."""
+    return POCKET + rep.pocket_normal.shape[1]
 
 
 @part
@@ -107,7 +112,7 @@ def _push(i, j, ahead, q, u, d, law, mode):
     two = _pair(i, j, ahead, q, u, d)
     touch = touch_beside(two, beside, Laws(law[RACE_LAW], law[RACE_RUBS]), sl)
     if mode >= REPORT:
-        rep.approach[i, NEXT_BALL] = sl.v[0]
+        rep.approach[i, _next_ball(rep)] = sl.v[0]
     if sl.d[0] <= 0.0:
         return
     arms, c, s = touch.arms, cos(ahead), sin(ahead)
@@ -118,10 +123,10 @@ def _push(i, j, ahead, q, u, d, law, mode):
     if mode >= REPORT:
         energy, damped = stored_and_damped((0, 1), sl, beside.normal[EXPONENT])
         rep.rib[i, 0] = sl.N[0]
-        rep.contact[i, NEXT_BALL] = 1 if sl.N[0] > 0.0 else 0
+        rep.contact[i, _next_ball(rep)] = 1 if sl.N[0] > 0.0 else 0
         rep.energy[IN_CONTACTS] += energy
-        rep.power[POCKET_DAMPING] += damped
-        rep.power[POCKET_FRICTION] += dot(touch.friction, touch.slip)
+        rep.power[NEIGHBOUR_DAMPING] += damped
+        rep.power[NEIGHBOUR_FRICTION] += dot(touch.friction, touch.slip)
 
 
 @outlined
