@@ -44,6 +44,7 @@ from flexcage.geometry.cage import Cage
 from flexcage.system.statics.options import StaticOptions
 
 _FEW = 8  # values of a list that a notebook shows
+_OF_CAGE = ("cage", "defects", "mesh", "modes")  # sections that go with a cage
 _NOT_PHYSICS = ("name", "description", "preset", "static", "given")
 #: Sections in the order of texts and pages; others follow.
 _ORDER = (
@@ -100,7 +101,10 @@ class Case(CaseSections, StaticCase):
         return value
 
     def _agreed(self, values: dict[str, Any]) -> dict[str, Any]:
-        return {**values, "cage": None} if values["cage_model"] == NO_CAGE else values
+        if values["cage_model"] != NO_CAGE or values["cage"] is None:
+            return values
+        given = [path for path in values["given"] or () if path.partition(".")[0] not in _OF_CAGE]
+        return {**values, "cage": None, "given": None if values["given"] is None else (*given,)}
 
     def to_table(self) -> dict[str, Any]:
         """Nested tables of texts with units, complete: nothing is left to defaults, but [static],
@@ -125,6 +129,8 @@ class Case(CaseSections, StaticCase):
         physics["contacts"] = dataclasses.replace(self.contacts, land=self.land)
         if self.cage is not None:
             physics |= self._cage_physics(self.cage)
+        else:
+            physics = {k: v for k, v in physics.items() if k not in _OF_CAGE}
         contents = {path: bytes_of(value) for path, value in self.files.items()}
         for path in filter(contents.get, contents):
             room, _, name = path.partition(".")

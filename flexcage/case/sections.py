@@ -104,9 +104,10 @@ class CageSections:
 
     @property
     def all_defects(self) -> tuple[CageDefect, ...]:
-        """Defects that the case names, and those that make its pockets' spacing uneven."""
+        """Defects that the case names, and those that make its pockets' spacing uneven; none
+        without a cage."""
         if self.cage is None:
-            return self.defects
+            return ()
         uneven = defect_spec(self.cage).by_chance(self.cage, self.bearing.element_count, self.seed)
         return (*self.defects, *uneven)
 

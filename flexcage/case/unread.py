@@ -41,6 +41,7 @@ def not_used(case: StaticSections) -> Iterator[str]:
     """
     why, by_reason = reasons(case), dict[str, list[str]]()
     given = {path for path in case.given or () if path.partition(".")[0] not in _WORDS}
+    given.discard("cage.model")
     for path in sorted(given):
         reason = why_unread(path, why)
         if reason and reason != _RIGID:

@@ -300,7 +300,7 @@ def compare_command(args: argparse.Namespace) -> int:
         found = compare_case(case, out=out, progress=Progress)
     say(found.text(every=args.all))
     more = "" if args.all else "; its compare.txt has all figures"
-    say(f"\nPicture and page (report.html) are in {out}{more}")
+    say(f"\nThe page (report.html) is in {out}{more}")
     return 0
 
 
