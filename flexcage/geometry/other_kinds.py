@@ -12,8 +12,8 @@ _HAS = (
     "roller bearings, single-row"
 )
 _FULL = (
-    "is a full complement bearing; flexcage knows none by its designation: describe it by its "
-    'dimensions in [bearing], with model = "none" in [cage]'
+    "is a full complement cylindrical roller bearing; flexcage has no catalogue of these: describe "
+    "it by its dimensions in [bearing], with model = \"none\" in [cage]"
 )
 # ISO 15 and makers' catalogues (SKF, Schaeffler, NSK): first digits and letters of designations
 # without spaces, dashes and strokes, and what such a bearing is
