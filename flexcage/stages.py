@@ -166,7 +166,7 @@ def _assembled(
         lubricant=specs.lubricant, drive=specs.drive, load=specs.load, mount=specs.mount,
         seed=specs.seed,
     )  # fmt: skip
-    if seat is not None:
+    if seat is not None and specs.mount.body:
         late = DAMPED * specs.outer_ring.relaxation
         model = model._replace(outer_ring=in_housing(model.outer_ring, seat, late))
     count = specs.bearing.element_count

@@ -13,7 +13,7 @@ _HAS = (
 )
 _FULL = (
     "is a full complement cylindrical roller bearing; flexcage has no catalogue of these: describe "
-    "it by its dimensions in [bearing], with model = \"none\" in [cage]"
+    'it by its dimensions in [bearing], with model = "none" in [cage]'
 )
 # ISO 15 and makers' catalogues (SKF, Schaeffler, NSK): first digits and letters of designations
 # without spaces, dashes and strokes, and what such a bearing is

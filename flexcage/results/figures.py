@@ -17,7 +17,7 @@ from flexcage.results.contact_activity import EVENTS, contact_series
 from flexcage.results.known import KNOWN, NO_DRIFT, SETTLING, KnownFigure, marked
 from flexcage.results.metrics import BearingNumbers, SlipRange
 from flexcage.results.registry import NEIGHBOURS
-from flexcage.results.ring_figures import constraint_sections, ring_section
+from flexcage.results.ring_figures import constraint_sections, outer_sections, ring_section
 from flexcage.results.statistics import Record, Windows, element_passes
 from flexcage.results.summary import Row, Section, Summary, figure, section_of, statistic
 
@@ -73,6 +73,7 @@ def summarise(
         *([section_of(_contact_rows(part, windows, events))] if caged else ()),
         *_neighbour_sections(part, windows, events, bearing),
         ring_section(part, windows),
+        *outer_sections(part, windows),
         *constraint_sections(part, windows),
     ]
     records = {r.key: r.record for s in sections for r in s.rows if r.record is not None}

@@ -238,6 +238,20 @@ def _ring() -> Iterator[KnownFigure]:
     )
 
 
+def _outer() -> Iterator[KnownFigure]:
+    yield from figures_in(
+        "Outer ring",
+        ("outer_force_radial", "Outer ring, force across the axis", "N",
+         "mean size of what all contacts press it with", STATISTIC),
+        ("outer_force_axial", "Outer ring, force along the axis", "N", "mean", SIGNED, STATISTIC),
+        ("outer_moment", "Outer ring, moment across the axis", "N mm",
+         "mean size, about its centre", STATISTIC),
+        ("outer_displacement", "Outer ring, displacement across the axis", "um",
+         "of the mean place, on a mount that yields"),
+        ("outer_tilt", "Outer ring, tilt", "mrad", "mean angle of its axis, likewise", STATISTIC),
+    )
+
+
 def _energy() -> Iterator[KnownFigure]:
     kinds = {"kinetic": "motion", "strain": "the cage's modes", "contact": "contacts",
              "mount": "shaft and housing springs"}
@@ -372,8 +386,8 @@ def _solver() -> Iterator[KnownFigure]:
 # fmt: on
 
 
-_FLOORS = (_statistics, _speeds, _slip, _motion, _forces, _ring, _energy, _film, _cage, _late,
-           _solver)  # fmt: skip
+_FLOORS = (_statistics, _speeds, _slip, _motion, _forces, _ring, _outer, _energy, _film, _cage,
+           _late, _solver)  # fmt: skip
 
 
 class _BySection(Parts[KnownFigure]):

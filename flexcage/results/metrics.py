@@ -447,7 +447,8 @@ def sampling_rate(ds: xarray.Dataset) -> float:
 
 
 def tilt(ds: xarray.Dataset, *, body: str = "cage") -> xarray.DataArray:
-    """Tilt of the axis a of the cage, or of the "inner" ring, against the bearing axis [rad].
+    """Tilt of the axis a of the cage, or of the "inner" or "outer" ring, against the bearing's
+    [rad].
 
     (time, component): total acos(a.x), and the signed atan2(a_y, a_x) and atan2(a_z, a_x).
     """

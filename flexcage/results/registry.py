@@ -165,6 +165,18 @@ def _common() -> Iterator[Variable]:
     yield sampled("outer_position", "m", "outer ring centre, ring frame", "axis")
     yield sampled("outer_velocity", "m/s", "velocity of the outer ring centre, ring frame", "axis")
     yield sampled(
+        "outer_quaternion", "1", "orientation of the outer ring", "quaternion", together=1
+    )
+    yield sampled(
+        "outer_force", "N", "force of all contacts on the outer ring, ring frame: what it hands on "
+        "to its mount, but for its weight and inertia",
+        "axis",
+    )  # fmt: skip
+    yield sampled(
+        "outer_moment", "N m", "moment of these forces about the outer ring's centre", "axis",
+        bits=MODAL_BITS, together=1,
+    )  # fmt: skip
+    yield sampled(
         "element_position", "m, m, rad", "centre of a rolling element (x, r, psi)",
         "element", "cyl", bits=38,  # psi grows
     )  # fmt: skip

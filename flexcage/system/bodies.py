@@ -246,12 +246,20 @@ def outer_ring_of(bearing, mount: Mount) -> RingBody:
     mass = bearing.outer_ring_mass + mount.mass
     moves, loose = mount.kind != "fixed", mount.kind == "contact"
     stiffness, damping = np.zeros((2, 6, 6))
+    free = np.array([0, 1, 1, 0, 0, 0]) * moves
     if moves and not loose:
-        stiffness[[1, 2], [1, 2]], damping[[1, 2], [1, 2]] = mount.stiffness, mount.damping
+        springs = np.zeros(6)
+        springs[YIELDS] = bushing_stiffness(mount)
+        dampers = np.zeros(6)
+        dampers[YIELDS] = (
+            mount.axial_damping, mount.damping, mount.damping, mount.tilt_damping,
+            mount.tilt_damping,
+        )  # fmt: skip
+        stiffness, damping, free = np.diag(springs), np.diag(dampers), 1 * (springs > 0.0)
     turns = np.array(bearing.outer_ring_inertia) * mass / bearing.outer_ring_mass
     return RingBody(
         inertia=np.array([mass, *turns]),
-        free=np.array([0, 1, 1, 0, 0, 0]) * moves,
+        free=free,
         stands=0,
         stiffness=stiffness,
         damping=damping,
@@ -259,6 +267,13 @@ def outer_ring_of(bearing, mount: Mount) -> RingBody:
         loose=int(loose),
         bore=np.array([mount.stiffness, mount.damping, mount.clearance]),
     )
+
+
+def bushing_stiffness(mount: Mount) -> np.ndarray:
+    """Stiffness (5,) of a bushing along x, y, z [N/m] and in tilt about y and z [N m/rad]; 0: it
+    holds the ring."""
+    tilt = mount.tilt_stiffness
+    return np.array([mount.axial_stiffness, mount.stiffness, mount.stiffness, tilt, tilt])
 
 
 def in_housing(ring: RingBody, compliance: np.ndarray, late: float) -> RingBody:

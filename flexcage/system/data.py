@@ -143,7 +143,7 @@ class Report(NamedTuple):
     energy: np.ndarray  # (4,) places as above; that of the mount holds the shaft's springs too
     contact: np.ndarray  # (Z, places) booleans: races 2, faces of the pocket, ribs
     approach: np.ndarray  # (Z, places) approach speed of each
-    outer_wrench: np.ndarray  # (6,) of contacts on the outer ring, in space
+    outer_wrench: np.ndarray  # (6,) of contacts on the outer ring, in space, about its centre
     outer_races: np.ndarray  # (6,) the share of its races
 
 

@@ -297,7 +297,10 @@ def test_axial_loads_that_change_have_a_limit_too(name):
         ),
         ('[bearing]\npreset = "nj 205 ECP"', ["presets are", "give bearing.design"]),
         ('[bearing]\ntype = "NU"', ["give bearing.design (type 'cylindrical_roller')"]),
-        ('[bearing]\ntype = "NCF"', ["single-row: give", 'a full complement has model = "none" in [cage]']),
+        (
+            '[bearing]\ntype = "NCF"',
+            ["single-row: give", 'a full complement has model = "none" in [cage]'],
+        ),
         (
             '[bearing]\ntype = "tapered_roller"',
             ["cylindrical_roller", "angular_contact_ball, deep_groove_ball"],

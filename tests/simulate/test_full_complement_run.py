@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-
 from simulate_cases import Interrupted
 
 from flexcage import Study, load_run, run_study, simulate
