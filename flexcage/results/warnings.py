@@ -442,19 +442,21 @@ def _um(length: float) -> str:
 #: What is looked at when a run has come to its end.
 AT_END: tuple[Callable[[Outcome], Iterator[RunWarning]], ...] = (
     _unfinished,
+    _yield,
     _overloaded,
+    _thrown_off,
+    _passes_ring,
+    _large_rotation,
+    _grown_into_ring,
     _short,
     _drift,
     _audit,
     _slip,
     _over_edge,
-)
-#: And of its cage.
-OF_CAGE_AT_END: tuple[Callable[[Outcome], Iterator[RunWarning]], ...] = (
-    _yield,
-    _thrown_off,
-    _passes_ring,
-    _large_rotation,
-    _grown_into_ring,
     _elements_touch,
 )
+_OF_CAGE = (
+    _yield, _thrown_off, _passes_ring, _large_rotation, _grown_into_ring, _elements_touch
+)  # fmt: skip
+#: The same without a cage.
+CAGELESS_AT_END = tuple(check for check in AT_END if check not in _OF_CAGE)

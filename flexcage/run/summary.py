@@ -15,7 +15,7 @@ from flexcage.results.film import film_rows
 from flexcage.results.known import KNOWN, RARE
 from flexcage.results.metrics import SlipRange, settled
 from flexcage.results.summary import Row, Summary, figure
-from flexcage.results.warnings import AT_END, OF_CAGE_AT_END, Outcome, from_attrs, warnings_of
+from flexcage.results.warnings import AT_END, CAGELESS_AT_END, Outcome, from_attrs, warnings_of
 from flexcage.run.elastic import elastic_shape
 from flexcage.run.folder import seam_warnings
 from flexcage.solve.contract import Effort
@@ -85,7 +85,7 @@ def warned(summary: Summary, run: RunRecord) -> Summary:
         shape=elastic_shape(run),
         said=frozenset(warning.key for warning in known),
     )
-    looked = AT_END if case.cage is None else (*AT_END, *OF_CAGE_AT_END)
+    looked = CAGELESS_AT_END if case.cage is None else AT_END
     return dataclasses.replace(summary, warnings=(*known, *warnings_of(looked, outcome)))
 
 
