@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from ball_parts import PITCH, ball_bearing, contacts_of
-from bearing_runs import march
+from bearing_runs import march, wrenches
 
 from flexcage.system.data import IN_CONTACTS, NEIGHBOUR_DAMPING, NEIGHBOUR_FRICTION
 
@@ -66,20 +66,6 @@ def test_forces_are_the_slopes_of_the_energy_and_only_of_those_that_touch():
         slope[2] /= layout.q(y)["elements"][i, 1]
         np.testing.assert_allclose(force[i, :3], slope, atol=2e-6 * np.abs(force).max())
     assert not force[[1, 8]].any()
-
-
-def wrenches(bearing, y):
-    """Forces and moments about the origin (Z, 3) in space of all balls."""
-    bearing.residual(0.0, y, np.zeros_like(y), mode=2)
-    own, q = bearing.data.work.scratch.wrenches.copy(), bearing.layout.q(y)["elements"]
-    c, s = np.cos(q[:, 2]), np.sin(q[:, 2])
-
-    def in_space(a):
-        return np.stack([a[:, 0], c * a[:, 1] - s * a[:, 2], s * a[:, 1] + c * a[:, 2]], axis=1)
-
-    place = np.stack([q[:, 0], q[:, 1] * c, q[:, 1] * s], axis=1)
-    force = in_space(own[:, :3])
-    return force, in_space(own[:, 3:]) + np.cross(place, force)
 
 
 def moving(bearing, y, seed=2):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from ball_parts import ball_bearing, contacts_of
-from bearing_runs import march
+from bearing_runs import march, wrenches
 
 from flexcage.bearings.cylindrical_roller.motion import MOTION
 from flexcage.case import load_case
@@ -101,20 +101,6 @@ def test_forces_are_the_slopes_of_the_energy_and_only_of_those_that_touch():
             # a thousandth: axes that are turned, and rollers a little askew along the axis
             np.testing.assert_allclose(own, slope, atol=1e-3 * most)
     assert not force[[1, 8]].any()
-
-
-def wrenches(bearing, y):
-    """Forces and moments about the origin (Z, 3) in space of all rollers."""
-    bearing.residual(0.0, y, np.zeros_like(y), mode=2)
-    own, q = bearing.data.work.scratch.wrenches.copy(), bearing.layout.q(y)["elements"]
-    c, s = np.cos(q[:, 2]), np.sin(q[:, 2])
-
-    def in_space(a):
-        return np.stack([a[:, 0], c * a[:, 1] - s * a[:, 2], s * a[:, 1] + c * a[:, 2]], axis=1)
-
-    place = np.stack([q[:, 0], q[:, 1] * c, q[:, 1] * s], axis=1)
-    force = in_space(own[:, :3])
-    return force, in_space(own[:, 3:]) + np.cross(place, force)
 
 
 def test_momentum_and_its_moment_are_kept_with_friction_and_damping():

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.contacts import laws as contact_laws
-from flexcage.contacts.beside import Beside, TwoBalls, touch_beside
+from flexcage.contacts.beside import Beside, TwoBalls, seen, touch_beside
 from flexcage.contacts.evaluation import RACE_LAW, RACE_RUBS, REPORT, TANGENT
 from flexcage.contacts.laws import EXPONENT
 from flexcage.contacts.slices import Laws, stored_and_damped
@@ -86,21 +86,15 @@ def _ahead(i, j, q):
 
 
 @part
-def _seen(c, s, a):
-    """A vector in the frame of a ball that is behind by an angle, cosine c and sine s."""
-    return a[0], c * a[1] - s * a[2], s * a[1] + c * a[2]
-
-
-@part
 def _pair(i, j, ahead, q, u, d):
     """Balls i and j in the frame of i."""
     radius, onset = fields(d.bodies).radius, fields(d.memory).rib[i, 0]
     qi, qj, ui, uj = q[of_element(i)], q[of_element(j)], u[of_element(i)], u[of_element(j)]
     c, s = cos(ahead), sin(ahead)
-    place = minus(_seen(c, s, (qj[0], qj[1], 0.0)), (qi[0], qi[1], 0.0))
-    velocity = minus(xyz(ui), _seen(c, s, xyz(uj)))
+    place = minus(seen(c, s, (qj[0], qj[1], 0.0)), (qi[0], qi[1], 0.0))
+    velocity = minus(xyz(ui), seen(c, s, xyz(uj)))
     return TwoBalls(
-        (radius[i], radius[j]), place, velocity, turn_of(ui), _seen(c, s, turn_of(uj)), onset
+        (radius[i], radius[j]), place, velocity, turn_of(ui), seen(c, s, turn_of(uj)), onset
     )
 
 
@@ -117,9 +111,9 @@ def _push(i, j, ahead, q, u, d, law, mode):
         return
     arms, c, s = touch.arms, cos(ahead), sin(ahead)
     moment = cross(touch.line, touch.friction)
-    back = _seen(c, -s, times(-1.0, touch.force))
+    back = seen(c, -s, times(-1.0, touch.force))
     add_force_and_moment(work.wrenches[i], touch.force, times(arms[0], moment))
-    add_force_and_moment(work.wrenches[j], back, _seen(c, -s, times(arms[1], moment)))
+    add_force_and_moment(work.wrenches[j], back, seen(c, -s, times(arms[1], moment)))
     if mode >= REPORT:
         energy, damped = stored_and_damped((0, 1), sl, beside.normal[EXPONENT])
         rep.rib[i, 0] = sl.N[0]
@@ -140,7 +134,7 @@ def _slopes(i, j, ahead, q, u, d, law):
     c, s, arms = cos(ahead), sin(ahead), touch.arms
     line, slip = touch.line, touch.slip
     _own_slopes(line, slip, arms[0], sl, pair, tan.Krr[i], tan.Crr[i])
-    line, slip = _seen(c, -s, times(-1.0, line)), _seen(c, -s, times(-1.0, slip))
+    line, slip = seen(c, -s, times(-1.0, line)), seen(c, -s, times(-1.0, slip))
     _own_slopes(line, slip, arms[1], sl, pair, tan.Krr[j], tan.Crr[j])
 
 

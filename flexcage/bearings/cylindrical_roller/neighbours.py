@@ -11,6 +11,7 @@ from math import cos, pi, sin
 from typing import TYPE_CHECKING
 
 from flexcage.contacts import laws as contact_laws
+from flexcage.contacts.beside import seen
 from flexcage.contacts.evaluation import RACE_LAW, RACE_RUBS, REPORT, TANGENT
 from flexcage.contacts.laws import EXPONENT
 from flexcage.contacts.roller_beside import (
@@ -64,12 +65,6 @@ def touch_next(t, y, yd, d, law, out, mode):
 
 
 @part
-def _seen(c, s, a):
-    """A vector in the frame of a roller that is behind by an angle, cosine c and sine s."""
-    return a[0], c * a[1] - s * a[2], s * a[1] + c * a[2]
-
-
-@part
 def _pair(i, j, q, d):
     """Rollers i and j in the frame of i, and how far j is ahead [rad]; roller 0 is next to the last
     one."""
@@ -77,11 +72,11 @@ def _pair(i, j, q, d):
     qi, qj = q[of_element(i)], q[of_element(j)]
     ahead = qj[2] - qi[2] + (0.0 if j > i else 2.0 * pi)
     c, s, own, other = cos(ahead), sin(ahead), poses[i], poses[j]
-    place = minus(_seen(c, s, (qj[0], qj[1], 0.0)), (qi[0], qi[1], 0.0))
+    place = minus(seen(c, s, (qj[0], qj[1], 0.0)), (qi[0], qi[1], 0.0))
     two = TwoRollers(
-        (radius[i], radius[j]), row(own, KEPT_AXES), _seen(c, s, row(other, KEPT_AXES)), place,
-        minus(row(own, KEPT_V), _seen(c, s, row(other, KEPT_V))), row(own, KEPT_W),
-        _seen(c, s, row(other, KEPT_W)), fields(d.memory).pocket[i, 0],
+        (radius[i], radius[j]), row(own, KEPT_AXES), seen(c, s, row(other, KEPT_AXES)), place,
+        minus(row(own, KEPT_V), seen(c, s, row(other, KEPT_V))), row(own, KEPT_W),
+        seen(c, s, row(other, KEPT_W)), fields(d.memory).pocket[i, 0],
     )  # fmt: skip
     return two, ahead
 
@@ -106,7 +101,7 @@ def _touch(i, j, q, d, law, mode):
     zero(back)
     force = push_both(two, beside, sl, work.wrenches[i], back)
     for k in range(2):  # force and moment, in the frame of j
-        f = _seen(c, -s, xyz(back[3 * k :]))
+        f = seen(c, -s, xyz(back[3 * k :]))
         for n in range(3):
             work.wrenches[j, 3 * k + n] += f[n]
     if mode == TANGENT:
@@ -130,8 +125,8 @@ def _slopes(i, j, two, ahead, d):
     for k in range(beside.s.shape[0]):
         sl.t2[k] = -sl.t2[k]  # along the axis the other slides the other way
     other = TwoRollers(
-        (two.radii[1], two.radii[0]), _seen(c, -s, two.other_axis), _seen(c, -s, two.axis),
-        _seen(c, -s, times(-1.0, two.place)), _seen(c, -s, times(-1.0, two.velocity)),
-        _seen(c, -s, two.other_spin), _seen(c, -s, two.spin), two.onset,
+        (two.radii[1], two.radii[0]), seen(c, -s, two.other_axis), seen(c, -s, two.axis),
+        seen(c, -s, times(-1.0, two.place)), seen(c, -s, times(-1.0, two.velocity)),
+        seen(c, -s, two.other_spin), seen(c, -s, two.spin), two.onset,
     )  # fmt: skip
     slopes_of(other, beside, sl, fields(d.pair).W, tan.Krr[j], tan.Crr[j])
