@@ -79,10 +79,11 @@ class Watch:
     def begin_at(self, done: float) -> None:
         self.cpu = sum(self.process.cpu_times()[:2])
 
-    def advance(self, amount: float = 1.0) -> None:
-        self.times.append(time.perf_counter())
-        self.memory.append(self.process.memory_info().rss)
-        self.scheduler = _scheduler_seconds()
+    def to(self, done: float) -> None:
+        while len(self.times) < int(done + 1e-9):
+            self.times.append(time.perf_counter())
+            self.memory.append(self.process.memory_info().rss)
+            self.scheduler = _scheduler_seconds()
 
 
 def _study(case: Case, count: int, *, keep: str = "runs") -> Study:

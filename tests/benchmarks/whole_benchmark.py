@@ -205,8 +205,8 @@ def _clocks() -> dict[str, float]:
     Bearing.advance = advance  # type: ignore[method-assign]
     _timed(Integration, "march", time.process_time, spent, "march")
     _timed(run_stress, "stress_history", time.process_time, spent, "stress")
-    _timed(Run, "_draw", _with_children, spent, "pictures")
-    march, draw = Integration.march, Run._draw
+    _timed(Run, "draw", _with_children, spent, "pictures")
+    march, draw = Integration.march, Run.draw
 
     def begun(*args: Any, **kwargs: Any) -> Any:
         spent["import"] = time.process_time()
@@ -219,7 +219,7 @@ def _clocks() -> dict[str, float]:
         spent["pictures_import"] = time.process_time() - begin
         return draw(*args, **kwargs)
 
-    Integration.march, Run._draw = begun, imported  # type: ignore[method-assign]
+    Integration.march, Run.draw = begun, imported  # type: ignore[method-assign]
     return spent
 
 

@@ -34,7 +34,9 @@ def on_outer_race(inner: float, *, pull: float) -> float:
 
 
 def kernels(folder: Path) -> dict[str, int]:
-    return {str(p): p.stat().st_mtime_ns for p in folder.rglob("*.kernel")}
+    """Files of compiled kernels: one that is written again is another file (its use changes its
+    times)."""
+    return {str(p): p.stat().st_ino for p in folder.rglob("*.kernel")}
 
 
 def run_flexcage(folder, env, *args):

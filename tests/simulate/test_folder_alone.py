@@ -83,7 +83,8 @@ print(json.dumps([float(field.von_mises.max()), float(run.stress_history.peak.ma
 
 @pytest.mark.parametrize("processor", ["Haswell", pytest.param("Nehalem", marks=pytest.mark.slow)])
 def test_another_processor_reads_the_same_stress(run, tmp_path, processor):
-    """BLAS kernels of another processor, with an empty cache: only rounding differs."""
+    """BLAS kernels of another processor, with an empty cache: only rounding differs, of peaks of
+    all steps the one to single precision."""
     text = subprocess.run(
         [sys.executable, "-c", READ, str(run.folder)],
         env={
@@ -94,7 +95,8 @@ def test_another_processor_reads_the_same_stress(run, tmp_path, processor):
         check=True, capture_output=True, text=True,
     ).stdout  # fmt: skip
     ours = [run.stress(time=0.0021).von_mises.max(), run.stress_history.peak.max()]
-    np.testing.assert_allclose(json.loads(text.splitlines()[-1]), ours, rtol=1e-9)
+    at, peak = json.loads(text.splitlines()[-1])
+    assert at == pytest.approx(ours[0], rel=1e-9) and peak == pytest.approx(ours[1], rel=2e-7)
 
 
 def test_rounded_shapes_are_precise_enough(run):
