@@ -173,8 +173,8 @@ def parse(value: object, unit: str, *, where: str = "value") -> float:
     """
     if isinstance(value, (int, float)) and not isinstance(value, bool) and value == value:
         raise _no_unit(value, unit, where)
-    if isinstance(value, str) and (found := _GROUPED.match(value)):
-        raise _with_groups(value, found, where)
+    if isinstance(value, str) and (groups := _GROUPED.match(value)):
+        raise _with_groups(value, groups, where)
     if isinstance(value, str) and _DECIMAL_COMMA.match(value):
         raise _with_comma(value, where)
     parts = split(value) if isinstance(value, str) else None
