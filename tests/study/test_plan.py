@@ -209,6 +209,7 @@ def test_mistakes_in_the_file(name, tmp_path, capsys):
             "say which element",
         ),
         (("element_omega[element=first].mean",), "counted from 0"),
+        (("cage_position[axis=y,axis=z].max",), "says twice which of one dimension is meant"),
         (("contact_angle.mean",), "is of balls, but the study's bearings have rollers"),
         (("contact_angle_inner",), "is of balls"),
         (("stress_peak",), "needs a flexible cage"),
