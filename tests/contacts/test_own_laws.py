@@ -79,7 +79,57 @@ def two_sided(n, d, v, onset, p, F, Fe, Fd, Fv):
         Fd[i], Fv[i] = p[0], 0.0
 
 
+def pulling(n, d, v, onset, p, F, Fe, Fd, Fv):
+    for i in range(n):
+        Fd[i] = -p[0] if d[i] > 0.0 else 0.0
+        F[i] = Fe[i] = Fd[i] * d[i]
+        Fv[i] = 0.0
+
+
+def giving(n, d, v, onset, p, F, Fe, Fd, Fv):
+    for i in range(n):
+        k = p[0] if d[i] > 0.0 else 0.0
+        Fe[i], Fd[i], Fv[i] = k * d[i], k * (1.0 - v[i]), -k * d[i]
+        F[i] = Fd[i] * d[i]
+
+
+def half_elastic(n, d, v, onset, p, F, Fe, Fd, Fv):
+    for i in range(n):
+        Fd[i] = p[0] if d[i] > 0.0 else 0.0
+        F[i] = Fd[i] * d[i]
+        Fe[i], Fv[i] = 0.5 * F[i], 0.0
+
+
+def sets_its_stiffness(n, d, v, onset, p, F, Fe, Fd, Fv):
+    p[0] = 2e7
+    for i in range(n):
+        Fd[i] = p[0] if d[i] > 0.0 else 0.0
+        F[i] = Fe[i] = Fd[i] * d[i]
+        Fv[i] = 0.0
+
+
+def clips_its_depth(n, d, v, onset, p, F, Fe, Fd, Fv):
+    for i in range(n):
+        d[i] = max(d[i], 0.0)
+        Fd[i] = p[0] if d[i] > 0.0 else 0.0
+        F[i] = Fe[i] = Fd[i] * d[i]
+        Fv[i] = 0.0
+
+
+def whole_arrays(n, d, v, onset, p, F, Fe, Fd, Fv):
+    for i in range(len(d)):
+        Fd[i] = p[0] if d[i] > 0.0 else 0.0
+        F[i] = Fe[i] = Fd[i] * d[i]
+        Fv[i] = 0.0
+
+
 NORMAL = {
+    "pulling": (pulling, (1e7, 1.0), "pulls: F is -300 N at a penetration of 30 um"),
+    "giving": (giving, (1e7, 1.0), "gives energy: F less that at rest is .* N at"),
+    "half_elastic": (half_elastic, (1e7, 1.0), "gives Fe = 150 N at .* which is not F at rest"),
+    "stiff": (sets_its_stiffness, (1e7, 1.0), "writes into p, which is not its own"),
+    "clips": (clips_its_depth, (1e7, 1.0), "writes into d, which is not its own"),
+    "whole": (whole_arrays, (1e7, 1.0), "writes beyond the first n entries"),
     "bent": (
         spring,
         (1e7, 1.0, 1e-5),
@@ -138,7 +188,14 @@ def fades(n, u, p, g, dg):
         dg[i] *= 1.0 - p[2]
 
 
+def pushes(n, u, p, g, dg):
+    shear(n, u, p, g, dg)
+    for i in range(n):
+        g[i], dg[i] = -g[i], -dg[i]
+
+
 FRICTION = {
+    "pushes": (pushes, "pushes along the motion: g = mu/u is -0.5 s/m at a sliding speed of 0"),
     "slope_of_mu": (slope_of_mu, r"dg/du \(dg\) = .* at a sliding speed of"),
     "coulomb": (plain_coulomb, "no finite number at a sliding speed of 0 m/s"),
     "fades": (fades, r"reads p\[2\], but its parameters are 2 numbers"),
