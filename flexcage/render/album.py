@@ -7,6 +7,7 @@ the cage, and fixes the range of stress and the factor of deformation, which els
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -145,9 +146,14 @@ def check_names(only: Sequence[str], known: Sequence[str]) -> None:
     """InputError for a picture that a run has not."""
     for name in only:
         if name not in known:
+            parts = [part for part in re.split("[,; ]+", name) if part in known]
+            near = (
+                f"name each by itself: {' '.join(parts)}; "
+                if len(parts) > 1
+                else _near(name, known)
+            )
             raise InputError(
-                f"The run has no picture '{name}'; {_near(name, known)}its pictures are "
-                f"{', '.join(known)}.",
+                f"The run has no picture '{name}'; {near}its pictures are {', '.join(known)}.",
                 where="only",
                 value=name,
             )

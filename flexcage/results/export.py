@@ -186,6 +186,11 @@ def check_there(name: str, known: Iterable[Any]) -> None:
         has = whose(families_with(name))
         hint = f"it is recorded of {has} alone" if has else "this run did not record it"
         hint += f" ({VARIABLES[name].long_name})"
+    parts = [part for part in re.split(r"[\[,; ]+", name) if part in known]
+    if "[" in name and parts:
+        hint = f"'{parts[0]}' has a column of each of its labels; name it without brackets"
+    elif len(parts) > 1:
+        hint = f"name each by itself: {' '.join(parts)}"
     raise InputError(
         f"The dataset has no variable {name!r}: {hint}.", where="variables", value=name
     )

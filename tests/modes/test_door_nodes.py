@@ -17,7 +17,7 @@ REFUSED = {
         "GRID,1,,1.,2.,3.\nGRID,1,,1.,2.,4.\n": r"numbers grids twice \(1\)",
         "GRID 1  1. 2. 3.\n": "line 1: 'GRID 1  1. 2. 3.' is no GRID entry, whose fields are eight",
         "GRID           1             1.0 2.0 3.0\n": "line 1: 'GRID .* is no GRID entry",
-        "GRID*                 1          0   1.0\n*   2.0\n": r"line 1: 'GRID\* .* \(sixteen after",
+        "GRID*                 1          0   1.0\n*   2.0\n": r"'GRID\* .* \(sixteen after",
         "CORD1R,1,1,2,3\nGRID,1,,1.,2.,3.\nGRID,4,1,0.,0.,1.\n": "line 1: the entry CORD1R",
     },
     "a.inp": {
