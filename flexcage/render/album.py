@@ -185,7 +185,8 @@ def draw_album(
     format: str = "png",
     progress: Callable[..., Any] = Silent,
 ) -> list[Path]:
-    """Draw all pictures into ``folder``, or ``only`` those of these names; their paths.
+    """Draw all pictures into ``folder``, or ``only`` those of these names, and animations if they
+    are asked for; their paths.
 
     Curves are drawn in ``format`` ("svg" and "pdf" are vector graphics), scenes as .png.
     ``progress`` is a context like ``core.progress.Progress``.
@@ -198,9 +199,9 @@ def draw_album(
     for name, (draw, needs_stress) in PICTURES.items():
         if scene.stress is not None or not needs_stress:
             drawings.append(Drawing(name, "png", partial(_draw_own, name, draw, scene)))
+    drawings = [drawing for drawing in drawings if not only or drawing.name in only]
     if animate:
         drawings += _animations(scene, look)
-    drawings = [drawing for drawing in drawings if not only or drawing.name in only]
     paths: list[Path] = []
     with progress(len(drawings), "pictures") as bar, few_collections():
         for drawing in drawings:

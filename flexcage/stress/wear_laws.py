@@ -68,8 +68,9 @@ def wear_law(material: str) -> WearLaw:
         return WEAR_LAWS[material]
     raise InputError(
         f"No published wear coefficient of {material} on steel is known here (there are "
-        f"{', '.join(WEAR_LAWS)}); give your own, run.wear(flexcage.spec.WearLaw(...)), or "
-        "register it with flexcage.register.wear_law.",
+        f"{', '.join(WEAR_LAWS)}); give your own, flexcage wear RUN --coefficient "
+        "'1e-8 mm^3/(N*m)' or run.wear(flexcage.spec.WearLaw(...)), or register it with "
+        "flexcage.register.wear_law.",
         where="law",
         value=material,
     )

@@ -159,3 +159,25 @@ def test_a_look_that_cannot_be(wrong, words):
 def test_several_pictures_in_one_word_are_told():
     with pytest.raises(InputError, match="name each by itself: orbit mesh; its pictures are"):
         check_names(["orbit,mesh"], ["orbit", "mesh", "spectra"])
+
+
+def test_animations_are_drawn_beside_the_pictures_that_are_named(monkeypatch, tmp_path):
+    """--animate with --only drew no animation, and said nothing."""
+    from flexcage.render import album
+
+    def drawing(name, ending):
+        def draw(path):
+            path.touch()
+            return path
+
+        return album.Drawing(name, ending, draw)
+
+    for part, found in (
+        ("_geometry", [drawing("mesh", "png")]),
+        ("_motion", [drawing("orbit", "png")]),
+        ("_animations", [drawing("bearing", "gif")]),
+    ):
+        monkeypatch.setattr(album, part, lambda *_, found=found: found)
+    scene = SimpleNamespace(stress=None)
+    drawn = draw_album(scene, tmp_path, animate=True, only=["orbit"])
+    assert [path.name for path in drawn] == ["orbit.png", "bearing.gif"]
