@@ -39,8 +39,10 @@ class Compiling:
 
 
 def kernels_of(case: Case) -> str:
-    """Name of the kernels that a case's run needs: its family's, or those with rings that bend."""
-    return f"{case.bearing.family}-rings" if case.rings_bend else case.bearing.family
+    """Name of the kernels that a case's run needs: its family's, or those with rings that bend, or
+    without a cage."""
+    parts = (case.bearing.family, "rings" * case.rings_bend, "uncaged" * (case.cage is None))
+    return "-".join(filter(None, parts))
 
 
 def begin_compiling(case: Case) -> Compiling | None:
@@ -88,7 +90,10 @@ def _compile_from(pieces: int, bearing: Bearing) -> None:
 
 
 def build_bearing(
-    case: Case, mesh: CageMesh, cage: CageReduction | None, compiling: Compiling | None = None
+    case: Case,
+    mesh: CageMesh | None,
+    cage: CageReduction | None,
+    compiling: Compiling | None = None,
 ) -> Bearing:
     """Bodies, contacts and compiled equations of motion."""
     bearing = bearing_in_motion(case, mesh, cage)

@@ -40,11 +40,14 @@ from flexcage.system.statics.solve import solve_bearing
 from flexcage.system.statics.yielding import compliance_of
 from flexcage.system.swinging import no_swings
 
-Cage = tuple[CageMesh, CageReduction | None]  # the second: None for a rigid cage
+# mesh and reduction: the second is None for a rigid cage, both are where there is none
+Cage = tuple[CageMesh | None, CageReduction | None]
 
 
 def made_cage(specs: CageSections, stages: Stages) -> Cage:
-    """A cage: its mesh and, if it is flexible, its reduction."""
+    """A cage, if the bearing has one: its mesh and, if it is flexible, its reduction."""
+    if specs.cage is None:
+        return None, None
     mesh = stages.named("mesh", cage_mesh, specs)
     return mesh, stages.named("modes", cage_reduction, specs, mesh)
 
@@ -66,7 +69,11 @@ def cage_reduction(specs: CageSections, mesh: CageMesh) -> CageReduction | None:
 
 def _reduced(specs: CageSections, mesh: CageMesh) -> CageReduction:
     return reduce_cage(
-        mesh, cage=specs.cage, defects=specs.all_defects, spec=specs.modes, order=specs.mesh.order
+        mesh,
+        cage=specs.its_cage,
+        defects=specs.all_defects,
+        spec=specs.modes,
+        order=specs.mesh.order,
     )
 
 
@@ -89,26 +96,32 @@ def flexible_cage(specs: CageSections) -> CageReduction:
     return _reduced(specs, cage_mesh(specs))
 
 
-def bearing_in_motion(specs: CaseSections, mesh: CageMesh, cage: CageReduction | None) -> Bearing:
+def bearing_in_motion(
+    specs: CaseSections, mesh: CageMesh | None, cage: CageReduction | None
+) -> Bearing:
     """Bodies, contacts and equations of motion, which are compiled when first asked for."""
     seat = compliance_of(specs.mount, specs.bearing)
     rings = _moving_rings(specs, seat)
-    if cage is None:
-        body = rigid_from_tets(mesh.points, mesh.tets, specs.cage.material.density)
-        return _assembled(specs, body, _rigid_interface(specs), rings, seat)
-    body = flexible_from_reduction(cage, specs.modes.damped_as(specs.cage.warm_material))
-    return _assembled(specs, body, cage.interface, rings, seat)
+    if cage is not None:
+        body = flexible_from_reduction(cage, specs.modes.damped_as(specs.its_cage.warm_material))
+        return _assembled(specs, (body, cage.interface), rings, seat)
+    if mesh is None:
+        return _assembled(specs, None, rings, seat)
+    body = rigid_from_tets(mesh.points, mesh.tets, specs.its_cage.material.density)
+    return _assembled(specs, (body, _rigid_interface(specs)), rings, seat)
 
 
 def bearing_to_compile(specs: CaseSections) -> Bearing:
     """The same with any body for its cage, and a seat that stands: kernels are alike for all."""
+    if specs.cage is None:
+        return _assembled(specs, None)
     body = rigid_from_tets(np.eye(4, 3, -1), np.array([[0, 1, 2, 3]]), 1.0)
-    return _assembled(specs, body, _rigid_interface(specs))
+    return _assembled(specs, (body, _rigid_interface(specs)))
 
 
 def _rigid_interface(specs: CaseSections) -> Any:
     count = specs.bearing.element_count
-    return rigid_interface_of(specs.cage, pocket_count=count, defects=specs.all_defects)
+    return rigid_interface_of(specs.its_cage, pocket_count=count, defects=specs.all_defects)
 
 
 def bent_rings(specs: CaseSections) -> tuple[BentRing, ...]:
@@ -140,19 +153,20 @@ def _statics(
 
 
 def _assembled(
-    specs: CaseSections, body: FlexibleBody, interface: Any, rings: MovingRings | None = None,
+    specs: CaseSections, cage: tuple[FlexibleBody, Any] | None, rings: MovingRings | None = None,
     seat: np.ndarray | None = None,
 ) -> Bearing:  # fmt: skip
-    """``interface``: what moves in the cage's pockets; ``rings``: those that bend, any if they are
-    left out; ``seat``: the outer ring's compliance, if it yields."""
+    """``cage``: its body, and what moves in its pockets; ``rings``: those that bend, any if they
+    are left out; ``seat``: the outer ring's compliance, if it yields."""
     motion, output = motion_of(specs.bearing), specs.output
+    body, interface = cage or (None, None)
     bends = specs.rings_bend
     model = motion.build_model(
         specs.bearing, specs.cage, body, interface, contacts=specs.contacts,
         lubricant=specs.lubricant, drive=specs.drive, load=specs.load, mount=specs.mount,
         seed=specs.seed,
     )  # fmt: skip
-    if seat is not None:
+    if seat is not None and specs.mount.body:
         late = DAMPED * specs.outer_ring.relaxation
         model = model._replace(outer_ring=in_housing(model.outer_ring, seat, late))
     count = specs.bearing.element_count
@@ -162,8 +176,11 @@ def _assembled(
         swings = no_swings(count) if rings is None else rings.swings
         motion, model = bending.motion, lands_follow(bending.model(*model, data, swings))
     swinging = 0 if rings is None else len(rings.at_start)
+    if body is None:
+        motion = motion.without_cage
     layout = Layout(
-        count, bodies_of_bearing(body.modes), names_of(specs.constraints), bends, swinging
+        count, bodies_of_bearing(body.modes if body else None), names_of(specs.constraints),
+        bends, swinging,
     )  # fmt: skip
     return Bearing(
         motion, specs.bearing, model, specs.contacts, layout, constraints=specs.constraints,

@@ -162,6 +162,11 @@ def rigid_body(mass: float, centre: np.ndarray, second_moment: np.ndarray) -> Fl
     return FlexibleBody(data)
 
 
+def no_body() -> FlexibleBody:
+    """What stands for a body that is not there: nothing may read its numbers, which are none."""
+    return rigid_body(np.nan, np.full(3, np.nan), np.full((3, 3), np.nan))
+
+
 def with_point_mass(body: FlexibleBody, mass: float, position: np.ndarray) -> FlexibleBody:
     """The body with a point mass that rides on the undeformed frame (an unbalance).
 

@@ -19,7 +19,7 @@ from flexcage.case.presets import NAMED
 from flexcage.case.read import read_case
 from flexcage.case.read_values import assumptions, files_of
 from flexcage.case.sections import CAGE_MODELS as CAGE_MODELS
-from flexcage.case.sections import CaseSections
+from flexcage.case.sections import NO_CAGE, CaseSections
 from flexcage.case.static import StaticCase
 from flexcage.case.tables import (
     ALIASES,
@@ -27,6 +27,7 @@ from flexcage.case.tables import (
     refuse_name,
     with_preset,
     without_aliases,
+    without_cage,
     words_of_text,
 )
 from flexcage.core import html
@@ -39,9 +40,11 @@ from flexcage.core.binding import (
 from flexcage.core.hashing import content_hash
 from flexcage.core.registry import source_of
 from flexcage.geometry.bearing import Bearing
+from flexcage.geometry.cage import Cage
 from flexcage.system.statics.options import StaticOptions
 
 _FEW = 8  # values of a list that a notebook shows
+_OF_CAGE = ("cage", "defects", "mesh", "modes")  # sections that go with a cage
 _NOT_PHYSICS = ("name", "description", "preset", "static", "given")
 #: Sections in the order of texts and pages; others follow.
 _ORDER = (
@@ -77,7 +80,7 @@ class Case(CaseSections, StaticCase):
         cls, table: Mapping[str, Any], *, folder: Path | None = None, si: bool = False
     ) -> Case:
         """Case from nested tables as TOML gives them; ``folder`` is where relative paths start."""
-        merged = with_preset(without_aliases(table))
+        merged = without_cage(with_preset(without_aliases(table)))
         merged.setdefault("given", sorted(path for path, _ in flat(without_aliases(table))))
         refuse_without_motion(merged.get("bearing"))
         merged = with_files(merged, folder or Path.cwd(), file_paths(Case))
@@ -91,17 +94,24 @@ class Case(CaseSections, StaticCase):
             refuse_without_motion(value)
         if where == "cage" and isinstance(value, Mapping):
             with words_of_text():
-                return binder.bind(type(self.cage), value, "cage", base=self.cage)
+                kind = type(self.cage) if self.cage else self.bearing.cage_spec
+                return binder.bind(kind, value, "cage", base=self.cage)
         if where in file_paths(Case) and isinstance(value, (str, Path)):
             return absolute(value, Path.cwd(), where)
         return value
+
+    def _agreed(self, values: dict[str, Any]) -> dict[str, Any]:
+        if values["cage_model"] != NO_CAGE or values["cage"] is None:
+            return values
+        given = [path for path in values["given"] or () if path.partition(".")[0] not in _OF_CAGE]
+        return {**values, "cage": None, "given": None if values["given"] is None else (*given,)}
 
     def to_table(self) -> dict[str, Any]:
         """Nested tables of texts with units, complete: nothing is left to defaults, but [static],
         which no run reads."""
         table = super().to_table()
         model = table.pop("cage_model")
-        table["cage"] = {"model": model, **table["cage"]}
+        table["cage"] = {"model": model, **table.get("cage", {})}
         if self.static == StaticOptions():
             del table["static"]
         return {f.name: table[f.name] for f in sections() if f.name in table}
@@ -117,11 +127,10 @@ class Case(CaseSections, StaticCase):
         names = [f.name for f in dataclasses.fields(self) if f.name not in _NOT_PHYSICS]
         physics = {name: getattr(self, name) for name in names}
         physics["contacts"] = dataclasses.replace(self.contacts, land=self.land)
-        if self.cage.temperature is not None:
-            physics["cage"] = dataclasses.replace(self.cage, material=self.cage.warm_material)
-        physics["modes"] = modes = self.modes.damped_as(self.cage.warm_material)
-        if self.cage_model == "rigid" or not self.cage.has_faces:
-            physics["modes"] = dataclasses.replace(modes, attachments="linear")
+        if self.cage is not None:
+            physics |= self._cage_physics(self.cage)
+        else:
+            physics = {k: v for k, v in physics.items() if k not in _OF_CAGE}
         contents = {path: bytes_of(value) for path, value in self.files.items()}
         for path in filter(contents.get, contents):
             room, _, name = path.partition(".")
@@ -129,6 +138,15 @@ class Case(CaseSections, StaticCase):
         mesh = contents.pop("mesh.file", b"")
         outside = sorted(filter(None, {source_of(name) for name in chosen_names(self)}))
         return content_hash(physics, mesh, *outside, *contents.items())
+
+    def _cage_physics(self, cage: Cage) -> dict[str, Any]:
+        """What of a cage and its modes counts in the hash."""
+        modes = self.modes.damped_as(cage.warm_material)
+        if self.cage_model == "rigid" or not cage.has_faces:
+            modes = dataclasses.replace(modes, attachments="linear")
+        if cage.temperature is None:
+            return {"modes": modes}
+        return {"cage": dataclasses.replace(cage, material=cage.warm_material), "modes": modes}
 
     @property
     def files(self) -> dict[str, str]:
@@ -157,10 +175,10 @@ class Case(CaseSections, StaticCase):
         defects = f", {len(self.defects)} defect(s)" if self.defects else ""
         designation = self.bearing.designation or "bearing"
         speed = self.drive.speed * 30.0 / pi
+        cage = f"{self.cage_model} {self.cage.material.name} cage" if self.cage else "no cage"
         return (
             f"Case('{self.name}': {designation}, {self.bearing.element_count} "
-            f"{self.bearing.element}s, "
-            f"{self.cage_model} {self.cage.material.name} cage{defects}, {speed:g} rpm, "
+            f"{self.bearing.element}s, {cage}{defects}, {speed:g} rpm, "
             f"{self.load.radial:g} N, {self.solver.duration:g} s; {self.hash})"
         )
 

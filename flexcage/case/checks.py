@@ -6,12 +6,13 @@ import dataclasses
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from math import inf, pi
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from flexcage.bearings import in_motion
 from flexcage.cages import cage_type_of
 from flexcage.case.read_values import files_of
 from flexcage.case.ring_checks import find_bending_in_run, find_in_rings
+from flexcage.case.sections import NO_CAGE, CaseSections, StaticSections
 from flexcage.core.binding import chosen_spec, default_of, join
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
@@ -19,9 +20,6 @@ from flexcage.core.writing import unusable
 from flexcage.geometry.bearing import Bearing, check_type
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.checks import OVERLOAD, greatest_speed
-
-if TYPE_CHECKING:
-    from flexcage.case.sections import CaseSections, StaticSections
 
 Finding = tuple[str, str]  # where, sentence
 
@@ -38,7 +36,9 @@ _MOST_ELEMENTS = 1e7  # assumption: more than a machine of 64 GB factors
 def check_case(case: CaseSections) -> None:
     """Raise InputError for the first thing in the case that cannot be."""
     refuse_without_motion(case.bearing)
-    _check_cage_type(case.bearing, case.cage)
+    _check_whether_caged(case)
+    if case.cage is not None:
+        _check_cage_type(case.bearing, case.cage)
     case.bearing.check(case.cage, case.all_defects)
     _raise_first(
         case,
@@ -46,17 +46,39 @@ def check_case(case: CaseSections) -> None:
             *_OF_EVERY_CASE,
             _find_in_axial_load,
             _find_in_held_motions,
-            _find_in_mesh,
-            _find_in_temperature,
+            *(_OF_CAGES if case.cage else (_find_without_cage,)),
             _find_in_mount,
             _find_in_waves,
             _find_in_solver,
             _find_in_output,
             _find_in_laws,
-            _find_in_land,
             find_bending_in_run,
         ),
     )
+
+
+def _check_whether_caged(case: CaseSections) -> None:
+    """A cage and its model go together."""
+    if case.cage is None and case.cage_model != NO_CAGE:
+        raise InputError(
+            "[cage] is missing; give the cage's dimensions or bearing.preset, or for a full "
+            'complement model = "none" in [cage].',
+            where="cage",
+        )
+    if case.cage is not None and case.cage_model == NO_CAGE:
+        raise InputError(
+            "cage.model is 'none', but there is a cage; leave one of both out.", where="cage"
+        )
+
+
+def _find_without_cage(case: CaseSections) -> Iterator[Finding]:
+    """What a case without a cage cannot have."""
+    for i, spec in enumerate(case.constraints):
+        if spec.type.startswith("cage_"):
+            yield (
+                f"constraints.{i}.type",
+                f"constraints.{i}.type is '{spec.type}', but cage.model is 'none'; leave it out.",
+            )
 
 
 def _check_cage_type(bearing: Bearing, cage: Cage) -> None:
@@ -127,10 +149,11 @@ def _find_in_materials(case: Any) -> Iterator[Finding]:
 
 
 def _find_in_temperature(case: CaseSections) -> Iterator[Finding]:
-    if case.cage.temperature is not None and case.modes.body:
+    temperature = case.its_cage.temperature
+    if temperature is not None and case.modes.body:
         yield (
             "cage.temperature",
-            f"cage.temperature is {describe(case.cage.temperature, 'degC')}, but modes.body brings "
+            f"cage.temperature is {describe(temperature, 'degC')}, but modes.body brings "
             "the stiffness; leave the temperature out, and give the body of the warm cage.",
         )
 
@@ -307,7 +330,7 @@ def _find_in_held_centre(case: CaseSections) -> Iterator[Finding]:
 
 
 def _find_in_mesh(case: CaseSections) -> Iterator[Finding]:
-    mesh, cage = case.mesh, case.cage
+    mesh, cage = case.mesh, case.its_cage
     for where, file in files_of(case).items():
         yield from _find_in_path(file, where)
     if mesh.file:
@@ -526,11 +549,11 @@ def _find_in_laws(case: CaseSections) -> Iterator[Finding]:
 
 
 def _find_in_land(case: CaseSections) -> Iterator[Finding]:
-    land = case.contacts.land
-    if case.cage.guidance in ("inner", "outer") and land.kind == "none":
+    land, guidance = case.contacts.land, case.its_cage.guidance
+    if guidance in ("inner", "outer") and land.kind == "none":
         yield (
             "contacts.land.kind",
-            f"cage.guidance is '{case.cage.guidance}', but contacts.land.kind is 'none'; take "
+            f"cage.guidance is '{guidance}', but contacts.land.kind is 'none'; take "
             "'dry' or 'film'.",
         )
     if land.kind != "none":
@@ -541,7 +564,7 @@ def _find_in_land(case: CaseSections) -> Iterator[Finding]:
 def _find_in_clearance(case: CaseSections) -> Iterator[Finding]:
     """Clearances of the land that no dimensions give, or that they contradict."""
     where, given = "contacts.land.clearance", case.contacts.land.clearance
-    guidance, ring = case.cage.guidance, case.bearing.land(case.cage)
+    guidance, ring = case.its_cage.guidance, case.bearing.land(case.its_cage)
     there = None if ring is None else ring.clearance
     if ring is None or there is None:
         if guidance in ("inner", "outer") and given is None:
@@ -568,19 +591,19 @@ def _find_in_clearance(case: CaseSections) -> Iterator[Finding]:
 def _find_in_width(case: CaseSections) -> Iterator[Finding]:
     """Lands wider than where cage and ring face each other, or a guided cage that faces none."""
     where, given = "contacts.land.width", case.contacts.land.width
-    ring = case.bearing.land(case.cage)
+    cage = case.its_cage
+    ring, guided = case.bearing.land(cage), cage.guidance in ("inner", "outer")
     if ring is None:
-        guided = case.cage.guidance in ("inner", "outer")
-        if guided and given is not None and given > 0.5 * case.cage.axial_width:
+        if guided and given is not None and given > 0.5 * cage.axial_width:
             yield (
                 where,
-                f"{where} is {describe(given, 'mm')}, but a cage {describe(case.cage.width, 'mm')} "
-                f"wide has two lands; give {describe(0.5 * case.cage.axial_width, 'mm')} or less.",
+                f"{where} is {describe(given, 'mm')}, but a cage {describe(cage.width, 'mm')} "
+                f"wide has two lands; give {describe(0.5 * cage.axial_width, 'mm')} or less.",
             )
-    elif ring.facing <= 0.0 and case.cage.guidance in ("inner", "outer"):
+    elif ring.facing <= 0.0 and guided:
         yield (
             "cage.guidance",
-            f"cage.guidance is '{case.cage.guidance}', but beside its pockets the cage does not "
+            f"cage.guidance is '{cage.guidance}', but beside its pockets the cage does not "
             "face that ring; make it wider, or choose another guidance.",
         )
     elif given is not None and given > max(ring.facing, 0.0) * (1.0 + 1e-9):
@@ -595,7 +618,7 @@ def _find_in_width(case: CaseSections) -> Iterator[Finding]:
 def land_beside_shoulder(case: CaseSections) -> Iterator[str]:
     """A sentence on a clearance that is not what the shoulder of the guiding ring leaves: no
     mistake, as the ring may have a land of its own, but one to know of."""
-    given, ring = case.contacts.land.clearance, case.bearing.land(case.cage)
+    given, ring = case.contacts.land.clearance, case.bearing.land(case.its_cage)
     if given is None or ring is None or ring.clearance is None or ring.strict:
         return
     if abs(given - ring.clearance) > _LAND_TOLERANCE:
@@ -616,3 +639,4 @@ _OF_EVERY_CASE = (
     _find_in_speed,
     find_in_rings,
 )
+_OF_CAGES = (_find_in_mesh, _find_in_temperature, _find_in_land)

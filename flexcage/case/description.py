@@ -15,16 +15,19 @@ from flexcage.geometry.cage import Cage
 from flexcage.geometry.temperature import MODULUS_CURVES
 from flexcage.system.spec import Load, Wave
 
+_NO_CAGE = "It has no cage: its elements touch each other (full complement)."
+
 
 def in_words(case: CaseSections) -> list[str]:
     """Paragraphs: bearing, cage and defects; drive and load; and how it was computed."""
     asked = f"The case calls itself “{case.description}”." if case.description else ""
-    what = f"{case.bearing.in_words()} {_cage(case)} {_defects(case)}"
+    cage = f"{_cage(case, case.cage)} {_defects(case, case.cage)}" if case.cage else _NO_CAGE
+    what = f"{case.bearing.in_words()} {cage}"
     return [text for text in (asked, what, f"{_motion(case)} {_method(case)}") if text]
 
 
-def _cage(case: CaseSections) -> str:
-    cage, bearing = case.cage, case.bearing
+def _cage(case: CaseSections, cage: Cage) -> str:
+    bearing = case.bearing
     guide = bearing.guides.get(cage.guidance, f"its {bearing.element}s")
     return (
         f"Its cage is {case.cage_model}, of {cage.material.name}{_warm(cage)}, guided by {guide}; "
@@ -39,11 +42,11 @@ def _warm(cage: Cage) -> str:
     return f" at {typeset(cage.temperature, 'degC')} ({modulus}; its strength is that at 23°C)"
 
 
-def _defects(case: CaseSections) -> str:
+def _defects(case: CaseSections, cage: Cage) -> str:
     if not case.defects:
         return "The cage has no defect."
     texts = [d.in_words(case.bearing.element_count) for d in case.defects]
-    return f"{case.cage.altered}: {'; '.join(texts)}."
+    return f"{cage.altered}: {'; '.join(texts)}."
 
 
 def _motion(case: CaseSections) -> str:
@@ -148,7 +151,8 @@ def assumed(case: CaseSections) -> dict[str, tuple[str, str]]:
     """Values that no source gives: by path, the value as a case file writes it and the reason."""
     table = to_table(case, named=NAMED)
     table["contacts"]["land"] = to_table(case.land)
-    table["modes"] = to_table(case.modes.damped_as(case.cage.warm_material))
+    if case.cage is not None:
+        table["modes"] = to_table(case.modes.damped_as(case.cage.warm_material))
     return {path: (_value(table, path), why) for path, why in assumptions(case).items()}
 
 
@@ -161,9 +165,12 @@ def _value(table: Any, path: str) -> str:
 def grounds(case: CaseSections) -> dict[str, str]:
     """Where the values of a case come from: its preset's sources and those of its materials."""
     found = dict(load_preset(case.preset).sources) if case.preset else {}
-    for material in (case.bearing.material, case.cage.material):
-        if material.source:
-            found[material.name] = material.source
+    if case.bearing.material.source:
+        found[case.bearing.material.name] = case.bearing.material.source
+    if case.cage is None:
+        return found
+    if case.cage.material.source:
+        found[case.cage.material.name] = case.cage.material.source
     if case.cage.temperature is not None:
         name = case.cage.material.name
         found[f"{name} over temperature"] = MODULUS_CURVES[name].source

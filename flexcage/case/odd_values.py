@@ -81,11 +81,11 @@ def odd_values(case: StaticCase) -> Iterator[Said]:
 
 def _thin_cage(case: Any) -> Iterator[str]:
     """A cage thinner than any is made, as where too many elements leave it no webs."""
-    if not hasattr(case, "cage"):
+    cage, bearing = getattr(case, "cage", None), case.bearing
+    if cage is None:
         return
-    bearing = case.bearing
     count, element = bearing.element_count, bearing.element
-    for name, size in case.cage.parts(bearing.pitch_diameter, count).items():
+    for name, size in cage.parts(bearing.pitch_diameter, count).items():
         if size < _THINNEST * bearing.element_diameter:
             yield (
                 f"The cage's {name} have {describe(size, 'mm')} at their thinnest, for {element}s "
@@ -111,8 +111,8 @@ def _bodies(case: Any) -> Iterator[tuple[str, Material, tuple[Usual, ...]]]:
         ring = getattr(case, name)
         if ring.bends and ring.material is not None:
             yield f"{name}.material", ring.material, (*_RINGS[:1], *_RINGS[2:])
-    if hasattr(case, "cage"):
-        yield "cage.material", case.cage.material, _OF_SOLIDS
+    if cage := getattr(case, "cage", None):
+        yield "cage.material", cage.material, _OF_SOLIDS
 
 
 def _odd_lubricant(case: StaticCase) -> Iterator[str]:

@@ -36,7 +36,8 @@ def assumptions(case: CaseSections) -> dict[str, str]:
 
 def _reads(case: CaseSections, path: str) -> bool:
     """Does anything read the value at a dotted path, in a bearing and cage such as these?"""
-    guided = case.bearing.land(case.cage) is not None and case.land.kind != "none"
+    land = case.bearing.land(case.cage) if case.cage else None
+    guided = land is not None and case.land.kind != "none"
     if path.startswith("contacts.land") and not guided:
         return False
     return not why_unread(path, reasons(case))

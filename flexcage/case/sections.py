@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from flexcage.contacts.spec import Contacts, LandSpec, Lubricant
+from flexcage.core.errors import InputError
 from flexcage.core.spec import option
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
@@ -24,7 +25,8 @@ from flexcage.solve.options import SolverOptions
 from flexcage.system.spec import Constraint, Drive, Limits, Load, Mount, StartOptions
 from flexcage.system.statics.options import StaticOptions
 
-CAGE_MODELS = ("flexible", "rigid")
+NO_CAGE = "none"  # full complement
+CAGE_MODELS = ("flexible", "rigid", NO_CAGE)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,18 +69,33 @@ class CageSections:
     """A cage: of which shape, how flexible, and in which bearing."""
 
     bearing: Bearing = option(doc="the bearing")
-    cage: Cage = option(doc="the cage")
-    cage_model: str = option("flexible", doc="how the cage is modelled", choices=CAGE_MODELS)
+    cage: Cage | None = option(None, doc="the cage")
+    cage_model: str = option(
+        "flexible", choices=CAGE_MODELS,
+        doc="how the cage is modelled; none: a full complement, without a cage",
+    )  # fmt: skip
     defects: tuple[CageDefect, ...] = option((), doc="deformations of the cage, any number")
     mesh: MeshOptions = option(MeshOptions(), doc="the cage's mesh")
     modes: ModesSpec = option(ModesSpec(), doc="the cage's modes")
     seed: int = option(0, doc="seed of everything random in a bearing: sizes, places", minimum=0)
 
     @property
+    def its_cage(self) -> Cage:
+        """The cage. Raises InputError where there is none."""
+        if self.cage is None:
+            raise InputError(
+                "The bearing has no cage: cage.model is 'none'; give a [cage] with the model "
+                "'flexible' or 'rigid'.",
+                where="cage.model",
+                value=NO_CAGE,
+            )
+        return self.cage
+
+    @property
     def cage_shape(self) -> dict[str, Any]:
         """What ``cages.build.build_cage_mesh`` asks for, by name."""
         return {
-            "cage": self.cage,
+            "cage": self.its_cage,
             "pocket_count": self.bearing.element_count,
             "pitch_diameter": self.bearing.pitch_diameter,
             "defects": self.all_defects,
@@ -87,14 +104,17 @@ class CageSections:
 
     @property
     def all_defects(self) -> tuple[CageDefect, ...]:
-        """Defects that the case names, and those that make its pockets' spacing uneven."""
+        """Defects that the case names, and those that make its pockets' spacing uneven; none
+        without a cage."""
+        if self.cage is None:
+            return ()
         uneven = defect_spec(self.cage).by_chance(self.cage, self.bearing.element_count, self.seed)
         return (*self.defects, *uneven)
 
     @property
     def riveted(self) -> bool:
         """Whether its cage is flexible and held together by rivets, whose loads are then known."""
-        return self.cage_model == "flexible" and self.cage.riveted
+        return self.cage_model == "flexible" and self.its_cage.riveted
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -115,8 +135,8 @@ class CaseSections(CageSections, StaticSections):
     @property
     def land(self) -> LandSpec:
         """The cage's land, with the clearance and width that the dimensions leave where the case
-        gives none."""
-        return self.contacts.land.on(self.bearing.land(self.cage))
+        gives none; as given without a cage."""
+        return self.contacts.land.on(self.bearing.land(self.cage) if self.cage else None)
 
     @property
     def held_in_words(self) -> str:

@@ -19,7 +19,14 @@ from flexcage.case.frozen import explain
 from flexcage.case.presets import NAMED
 from flexcage.case.read import read_case
 from flexcage.case.sections import CaseSections, StaticSections
-from flexcage.case.tables import ALIASES, as_pairs, with_preset, without_aliases, words_of_text
+from flexcage.case.tables import (
+    ALIASES,
+    as_pairs,
+    with_preset,
+    without_aliases,
+    without_cage,
+    words_of_text,
+)
 from flexcage.core import html
 from flexcage.core.binding import (
     Binder,
@@ -77,7 +84,7 @@ class StaticCase(StaticSections):
             asked["mount"] = _body_alone(merged.get("mount", {}))
             asked["given"] = _read_paths(without_aliases(table), own)
             case: StaticCase = binder.bind(StaticCase, asked, "")
-            if "cage" in merged:
+            if "cage" in without_cage(merged):
                 cage = binder.bind(case.bearing.cage_spec, merged["cage"], "cage")
                 check_spec(cage, "cage")
                 case.bearing.check(cage)
@@ -113,7 +120,7 @@ class StaticCase(StaticSections):
             new = bare._prepared(where, new, binder)
             with words_of_text():
                 bare = set_path(bare, ALIASES.get(where, where), new, binder)
-        return kind(**_values(bare))
+        return kind(**bare._agreed(_values(bare)))
 
     def _given(self, pairs: dict[str, Any]) -> dict[str, Any]:
         """Values to replace, and among them the paths of all that the user gave."""
@@ -124,6 +131,10 @@ class StaticCase(StaticSections):
     def _prepared(self, where: str, value: Any, binder: Binder) -> Any:
         """A value to replace, as it is set."""
         return value
+
+    def _agreed(self, values: dict[str, Any]) -> dict[str, Any]:
+        """Replaced values of all sections, without those of a section that another one excludes."""
+        return values
 
     def to_table(self) -> dict[str, Any]:
         """Nested tables of texts with units, complete but for rings as by default: rigid."""

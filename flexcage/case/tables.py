@@ -8,6 +8,7 @@ from dataclasses import fields
 from typing import Any
 
 from flexcage.case.presets import NAMED, Preset, load_preset
+from flexcage.case.sections import NO_CAGE
 from flexcage.core.binding import chosen_spec, to_table
 from flexcage.core.errors import InputError
 from flexcage.geometry.bearing import BEARING_TYPES
@@ -42,6 +43,13 @@ def with_preset(table: dict[str, Any]) -> dict[str, Any]:
     preset = load_preset(name)
     _refuse_other_type(preset, bearing)
     return _merge(_without_other_cage(preset, table), table)
+
+
+def without_cage(table: dict[str, Any]) -> dict[str, Any]:
+    """Tables of a bearing without a cage, if these say so, without its values."""
+    if NO_CAGE not in (table.get("cage_model"), table.get("cage")):
+        return table
+    return {key: value for key, value in table.items() if key != "cage"} | {"cage_model": NO_CAGE}
 
 
 def _refuse_other_type(preset: Preset, bearing: Any) -> None:

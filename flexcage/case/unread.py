@@ -7,12 +7,11 @@ sections of the case stands here.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
+from flexcage.case.sections import CaseSections, StaticSections
 from flexcage.core.unread import unread, why_unread
-
-if TYPE_CHECKING:
-    from flexcage.case.sections import CaseSections, StaticSections
+from flexcage.geometry.bearing import Bearing
+from flexcage.geometry.cage import Cage
 
 _WORDS = ("name", "description", "preset", "static", "given")  # read by people, or by no run
 _RIGID = "cage.model is 'rigid'"
@@ -26,10 +25,10 @@ def reasons(case: StaticSections) -> dict[str, str]:
     """Dotted paths of values that nothing reads in such a case, and why: half a sentence. The path
     of a section stands for all values in it."""
     found = dict(unread(case))
-    moving = hasattr(case, "cage")  # a static solution has none
-    of_cages = (_on_lands, _of_a_rigid_cage, _of_round_pockets) if moving else ()
-    for rule in (_in_contacts, _in_materials, *of_cages, _in_loads):
+    for rule in (_in_contacts, _in_materials, _in_loads):
         found.update(rule(case))
+    if isinstance(case, CaseSections):  # a static solution is one of no cage
+        found.update(_of_no_cage() if case.cage is None else _of_cage(case, case.cage))
     if case.mount.body:  # whose damping it is
         found.pop("outer_ring.relaxation", None)
     return found
@@ -42,6 +41,7 @@ def not_used(case: StaticSections) -> Iterator[str]:
     """
     why, by_reason = reasons(case), dict[str, list[str]]()
     given = {path for path in case.given or () if path.partition(".")[0] not in _WORDS}
+    given.discard("cage.model")
     for path in sorted(given):
         reason = why_unread(path, why)
         if reason and reason != _RIGID:
@@ -61,8 +61,24 @@ def _in_contacts(case: StaticSections) -> Iterator[tuple[str, str]]:
             yield f"contacts.{place}.slices", f"{bearing.element}s touch there in points"
 
 
-def _on_lands(case: CaseSections) -> Iterator[tuple[str, str]]:
-    bearing, cage = case.bearing, case.cage
+def _of_no_cage() -> Iterator[tuple[str, str]]:
+    for path in (
+        "cage", "defects", "mesh", "modes", "start.push", "start.seed", "limits.stress",
+        "output.keep_cage", "contacts.pocket", "contacts.side", "contacts.land",
+    ):  # fmt: skip
+        yield path, "cage.model is 'none'"
+
+
+def _of_cage(case: CaseSections, cage: Cage) -> Iterator[tuple[str, str]]:
+    yield from _on_lands(case.bearing, cage)
+    yield from _of_a_rigid_cage(case)
+    if not cage.has_faces:
+        why = "the cage's pockets are round"
+        yield "modes.attachments", why
+        yield "modes.crossbeams", why
+
+
+def _on_lands(bearing: Bearing, cage: Cage) -> Iterator[tuple[str, str]]:
     if bearing.land(cage) is None:
         why = f"no ring guides the cage: cage.guidance is '{cage.guidance}'"
         if any(stop is not None for stop in bearing.stops(cage)):
@@ -90,13 +106,6 @@ def _of_a_rigid_cage(case: CaseSections) -> Iterator[tuple[str, str]]:
     elif case.modes.damping is not None or case.modes.ratios:
         given = "damping" if case.modes.damping is not None else "ratios"
         yield "cage.material.loss_factor", f"modes.{given} is given"
-
-
-def _of_round_pockets(case: CaseSections) -> Iterator[tuple[str, str]]:
-    if not case.cage.has_faces:
-        why = "the cage's pockets are round"
-        yield "modes.attachments", why
-        yield "modes.crossbeams", why
 
 
 def _in_loads(case: StaticSections) -> Iterator[tuple[str, str]]:

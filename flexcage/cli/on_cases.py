@@ -137,7 +137,7 @@ def mesh_command(args: argparse.Namespace) -> int:
     for path in paths:  # a mesh of ours is written anew: it costs seconds
         prepare_file(path, (".msh", ".vtu"), force=args.force or is_written_by_us(path))
     mesh = Stages(Progress).named("mesh", build_cage_mesh, **case.cage_shape)
-    say(report_mesh(mesh, density=case.cage.material.density))
+    say(report_mesh(mesh, density=case.its_cage.material.density))
     for path in paths:
         say(f"written: {write_mesh(mesh, path)}")
     return 0

@@ -258,7 +258,7 @@ def wear_command(args: argparse.Namespace) -> int:
     run, law = load_run(existing_run(args.run)), None
     if args.coefficient:
         k = parse(args.coefficient, "mm^3/(N*m)", where="--coefficient")
-        law = WearLaw(material=run.case.cage.material.name, coefficient=k)
+        law = WearLaw(material=run.case.its_cage.material.name, coefficient=k)
     say(run.wear(law).table(args.hours))
     return 0
 
@@ -300,7 +300,7 @@ def compare_command(args: argparse.Namespace) -> int:
         found = compare_case(case, out=out, progress=Progress)
     say(found.text(every=args.all))
     more = "" if args.all else "; its compare.txt has all figures"
-    say(f"\nPicture and page (report.html) are in {out}{more}")
+    say(f"\nThe page (report.html) is in {out}{more}")
     return 0
 
 

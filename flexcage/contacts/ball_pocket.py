@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.contacts.evaluation import ANGLE, APPROACH, DAMPED, REPORT, RUBBED, STORED
-from flexcage.contacts.laws import EXPONENT, STIFFNESS
+from flexcage.contacts.laws import EXPONENT, N_FRICTION, N_NORMAL, STIFFNESS
 from flexcage.contacts.slices import (
     friction_factors,
     friction_power,
@@ -83,6 +83,17 @@ class BallInPocket(NamedTuple):
     velocity: tuple[float, float, float]  # less that of the cage's body there
     spin: tuple[float, float, float]  # angular velocity less the cage's
     onset: float  # speed at which the contact closed
+
+
+def no_ball_pockets(count: int) -> BallPockets:
+    """Those of so many balls without a cage: nowhere is a wall."""
+    z, n = np.zeros, count
+    return BallPockets(
+        azimuth=z((n, 2)), shift=z((n, 2)), slot=z((n, 2)), radius=np.full(n, np.inf), height=0.0,
+        wall=np.array([0.0, np.inf]), shape=CYLINDER, rims=z((n, 2)), sides=z((n, 2)),
+        offset=z((n, 0, 3)), inset=0.0, phi=z((n, 1, 0, 3, 0)), phi_max=z(0), local=z((n, 0)),
+        normal=z((n, N_NORMAL)), friction=z(N_FRICTION),
+    )  # fmt: skip
 
 
 def ball_pocket_work(stations: int, modes: int) -> BallPocketWork:

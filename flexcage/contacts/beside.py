@@ -49,6 +49,12 @@ class Touch(NamedTuple):
 
 
 @part
+def seen(c, s, a):
+    """A vector in the frame of an element that is behind by an angle, cosine c and sine s."""
+    return a[0], c * a[1] - s * a[2], s * a[1] + c * a[2]
+
+
+@part
 def touch_beside(two, beside, laws, sl):
     """The ``Touch`` of ``TwoBalls``; penetration and rate in sl.d[0], sl.v[0], and only if they
     touch (sl.d[0] > 0) forces."""

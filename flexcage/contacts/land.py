@@ -8,11 +8,12 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.contacts.evaluation import APPROACH, DAMPED, NORMAL, RUBBED, SHEARED, STORED
-from flexcage.contacts.laws import EXPONENT, LandFilm, short_bearing
+from flexcage.contacts.laws import EXPONENT, N_FRICTION, N_NORMAL, LandFilm, short_bearing
 from flexcage.contacts.ring_waves import (
     PLACE,
     RATE,
     furthest,
+    no_waves,
     outwards_at,
     push_outwards,
     push_shifted,
@@ -75,6 +76,15 @@ class LandData(NamedTuple):
     other_phi: np.ndarray
     other_phi_max: np.ndarray
     other_normal: np.ndarray
+
+
+def no_land() -> LandData:
+    """That of a bearing without a cage."""
+    z, (crest, borne) = np.zeros, no_waves()
+    return LandData(
+        NONE, 0, 0.0, 0.0, z(2), z((0, 2)), z((0, 3, 0)), z(0), z(N_NORMAL), z(N_FRICTION), 0.0,
+        0.0, crest, borne, NONE, 0.0, 0.0, z(2), z((0, 3, 0)), z(0), z(N_NORMAL),
+    )  # fmt: skip
 
 
 def with_other(land: LandData, other: LandData) -> LandData:

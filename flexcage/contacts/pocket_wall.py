@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from flexcage.contacts.laws import N_FRICTION, N_NORMAL
 from flexcage.contacts.slices import ROOM, largest
 from flexcage.contacts.state import CageModes, RollerPose
 from flexcage.core.jit import VECTORISED, part
@@ -136,6 +137,19 @@ class PocketLaws(NamedTuple):
     side: Any
     crossbeam_rubs: Any
     side_rubs: Any
+
+
+def no_pockets(count: int, half_roller: float) -> PocketData:
+    """Those of so many rollers, half as long [m] as given, without a cage: nowhere is a wall."""
+    z, n, m = np.zeros, count, N_LOCAL
+    return PocketData(
+        azimuth=z((n, 2)), half=np.full(2, np.inf), s=z(0), drop=z(0), points=z((0, 2)),
+        half_roller=half_roller, x0=z(4), dx=z(4), offset=z((n, 4, 1)), grid=z((2, 4)),
+        low=z((n, 4)), bent=z((n, 4), np.int64), phi=z((n, 4, 0, 3, 0)), phi_max=z(0),
+        rows=z((n, 4, 3, 0, 0)), soft=0, res=z((n, 4, 0, m)), res_max=z((n, 4, m)), most=z((n, m)),
+        own=z((n, 4, 0, N_FACE)), own_max=z((n, 4, N_FACE)), turn=z((n, 4, N_FACE, m)),
+        root=z((n, m, m)), normal=z((2, N_NORMAL)), friction=z((2, N_FRICTION)),
+    )  # fmt: skip
 
 
 def pocket_work(n_slices: int, n_points: int, n_stations: int, n_modes: int) -> PocketWork:

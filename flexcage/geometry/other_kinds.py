@@ -9,7 +9,11 @@ from types import MappingProxyType
 
 _HAS = (
     "flexcage has none: it has deep groove and angular contact ball bearings, and cylindrical "
-    "roller bearings, single-row and with a cage"
+    "roller bearings, single-row"
+)
+_FULL = (
+    "is a full complement cylindrical roller bearing; flexcage has no catalogue of these: describe "
+    'it by its dimensions in [bearing], with model = "none" in [cage]'
 )
 # ISO 15 and makers' catalogues (SKF, Schaeffler, NSK): first digits and letters of designations
 # without spaces, dashes and strokes, and what such a bearing is
@@ -24,7 +28,6 @@ _DESIGNATIONS = {
     r"4[23]\d\d([A-Z].*)?": "a double row deep groove ball bearing",
     r"QJF?\d.*": "a four-point contact ball bearing",
     r"(NK|NKI|NKS|NKIS|NA|RNA|HK|BK|NKIA|NKIB|NKX|NKXR|AXK|AXW|K)\d.*": "a needle roller bearing",
-    r"(NCF|NJG|SL1[89]|RSL1[89])\d.*": "a full complement cylindrical roller bearing",
     r"(NNCF|NNCL|NNC|NNF|SL0\d)\d.*": "a double row full complement cylindrical roller bearing",
     r"NNU?\d.*": "a double row cylindrical roller bearing",
     r"(UC|YAR|YET|YEL|GYE|SA|SB)\d.*": "an insert bearing",
@@ -39,9 +42,10 @@ _NAMES = {
     r"(double|two|multi|four).?row.*|duplex.*": "bearings of several rows",
     r"(four|three).?point.*|qj": "four-point contact bearings",
     r"needle.*": "needle roller bearings",
-    r"full.?complement.*|cageless": "full complement bearings",
     r"(cross|toroid|carb|insert|slewing|linear|plain|journal|magnetic|slide).*": "such bearings",
 }
+_UNCAGED = re.compile(r"(NCF|NJG|SL1[89]|RSL1[89])\d.*")
+_CAGELESS = re.compile(r"full.?complement.*|cageless", re.IGNORECASE)
 _PAIR = re.compile(r"(7\d{3}[A-Z0-9]*?)(DB|DF|DT(?!N)|QBC|QFC|QBT|QFT|TBT|TFT|TBTX)[A-Z0-9]*")
 _SETS = {"DB": "back to back", "DF": "face to face", "DT": "in tandem"}
 
@@ -73,6 +77,8 @@ def kind_of(designation: str) -> str:
             f"is a set of bearings{how} ({pair[2]}); flexcage has single ones: take {pair[1]}, "
             "with its share of the load and the preload in load.axial"
         )
+    if _UNCAGED.fullmatch(name):
+        return _FULL
     for pattern, kind in _DESIGNATIONS.items():
         if re.fullmatch(pattern, name):
             return f"is {kind}; {_HAS}"
@@ -82,6 +88,8 @@ def kind_of(designation: str) -> str:
 def named_kind(name: str) -> str:
     """That flexcage has no bearings of a kind, by a name such as "tapered_roller", as a part of a
     sentence; empty if the name is of none that it has not."""
+    if _CAGELESS.fullmatch(name.strip()):
+        return 'a bearing without a cage is one of these types, with model = "none" in [cage]'
     for pattern, kinds in _NAMES.items():
         if re.fullmatch(pattern, name.strip(), re.IGNORECASE):
             return f"of {kinds} {_HAS}"

@@ -10,7 +10,7 @@ from flexcage.integrate.postures import orientation, to_body
 from flexcage.integrate.recording import Recording
 from flexcage.integrate.rings import ring_records
 from flexcage.results.options import OutputOptions
-from flexcage.results.registry import ENERGIES, VARIABLES, variables_of
+from flexcage.results.registry import ENERGIES, NEIGHBOURS, VARIABLES, variables_of
 from flexcage.results.store import MemoryRunStore, RunStore
 from flexcage.system.data import POWERS
 from flexcage.system.problem import Bearing
@@ -27,15 +27,13 @@ def new_store(
 ) -> MemoryRunStore:
     """Allocate a run for this bearing on its sampling grids, at ``path`` or in memory."""
     n, ratio = max(round(duration * output.rate), 2), output.vibration_ratio
-    layout, motion, spec = bearing.layout, bearing.motion, bearing.spec
+    layout, spec = bearing.layout, bearing.spec
     numbers = np.arange(layout.elements)
     coords = {
         "time": np.arange(1, n + 1) / output.rate,
         "time_hf": np.arange(1, n * ratio + 1) / output.vibration_rate,
         "element": numbers,
-        "pocket": numbers,
-        "face": np.array(motion.faces),
-        "mode": np.arange(layout.modes),
+        **(_of_cage(bearing) if layout.has_cage else {}),
         "constraint": np.array(layout.reactions),
         "multiplier_unit": (
             ("constraint",),
@@ -46,7 +44,6 @@ def new_store(
         **_spotted(bearing, recording),
         "energy_kind": np.array(ENERGIES),
         "channel": np.array(POWERS),
-        "land_station": np.arange(len(bearing.data.work.report.land_station)),
         **recording.coords(bearing.data.model),
     }
     return RunStore.create(
@@ -62,6 +59,17 @@ def new_store(
             "places": list(bearing.places),
         },
     )  # fmt: skip
+
+
+def _of_cage(bearing: Bearing) -> dict[str, Any]:
+    """Labels of a cage's pockets, faces, modes and stations of its lands."""
+    layout = bearing.layout
+    return {
+        "pocket": np.arange(layout.elements),
+        "face": np.array(bearing.motion.faces),
+        "mode": np.arange(layout.modes),
+        "land_station": np.arange(len(bearing.data.work.report.land_station)),
+    }
 
 
 def _supports(bearing: Bearing) -> dict[str, Any]:
@@ -92,7 +100,10 @@ def recorded_names(bearing: Bearing, recording: Recording[Any]) -> list[str]:
         ("spotted", spots),
     )  # fmt: skip
     without = {dim for dim, has in counted if not has}
-    every = variables_of(bearing.spec.family)
+    left_out = set() if recording.touch or not layout.has_cage else {NEIGHBOURS}
+    every = [name for name in variables_of(bearing.spec.family) if name not in left_out]
+    if not layout.has_cage:
+        every = [name for name in every if not VARIABLES[name].of_cage]
     return [name for name in every if without.isdisjoint(VARIABLES[name].dims)]
 
 
@@ -104,10 +115,9 @@ def recorded(
 
 
 def _common(bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> dict[str, np.ndarray]:
-    """Rings, cage, lands, pockets and energies of any bearing."""
+    """Rings, cage and energies of any bearing."""
     layout, s, n = bearing.layout, bearing.data.samples, len(y)
-    q, u, a = layout.q(y), layout.u(y), layout.u(yd)
-    quaternion = q["quaternion"] / np.linalg.norm(q["quaternion"], axis=1, keepdims=True)
+    q, u = layout.q(y), layout.u(y)
     arrays = {
         "inner_position": q["inner"][:, :3],
         "inner_velocity": u["inner"][:, :3],
@@ -116,6 +126,24 @@ def _common(bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> dict[str, np.nda
         "inner_quaternion": orientation(np.zeros(n), q["inner"][:, 3:]),
         "outer_position": q["outer"][:, :3],
         "outer_velocity": u["outer"][:, :3],
+        "outer_quaternion": orientation(np.zeros(n), q["outer"][:, 3:]),
+        "outer_force": s.outer_wrench[:n, :3],
+        "outer_moment": s.outer_wrench[:n, 3:],
+        **(_cage(bearing, y, yd) if layout.has_cage else {}),
+        "multiplier": layout.multipliers(y),
+        "energy": s.energy[:n],
+    }
+    if layout.bends:
+        arrays |= ring_records(bearing, y)
+    return arrays
+
+
+def _cage(bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> dict[str, np.ndarray]:
+    """The cage's motion, and the forces of its pockets and lands."""
+    layout, s, n = bearing.layout, bearing.data.samples, len(y)
+    q, u, a = layout.q(y), layout.u(y), layout.u(yd)
+    quaternion = q["quaternion"] / np.linalg.norm(q["quaternion"], axis=1, keepdims=True)
+    arrays = {
         "cage_position": q["cage"],
         "cage_velocity": u["cage"],
         "cage_quaternion": quaternion,
@@ -128,11 +156,7 @@ def _common(bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> dict[str, np.nda
         "station_force": s.station[:n],
         "land_force": s.land[:n],
         "land_station_force": s.land_station[:n],
-        "multiplier": layout.multipliers(y),
-        "energy": s.energy[:n],
     }
-    if layout.bends:
-        arrays |= ring_records(bearing, y)
     if layout.modes:
         arrays["modal_coordinates"] = q["modes"]
         arrays["modal_velocity"] = u["modes"]

@@ -28,7 +28,8 @@ class Recording(Generic[M]):
     were made, without waves and deflection.
 
     ``spots(model)``: numbers of the elements that have a spot, whose directions (n, spots, 3) are
-    then among the variables, as "spot_direction".
+    then among the variables, as "spot_direction". ``touch``: may elements touch the next ones with
+    a cage between them, so that "neighbour_force" is always among the variables?
     """
 
     coords: Callable[[M], dict[str, Any]]
@@ -36,3 +37,4 @@ class Recording(Generic[M]):
     overlaps: Callable[[M, Layout, np.ndarray], np.ndarray]
     remedy: Callable[[M], str] = lambda model: "a land (cage.guidance) would hold it"
     spots: Callable[[M], np.ndarray] = lambda model: np.zeros(0, np.int64)
+    touch: bool = False

@@ -27,6 +27,7 @@ from flexcage.render import sheet
 from flexcage.render.look import Look
 from flexcage.results import spectra
 from flexcage.results.metrics import BearingNumbers, settled
+from flexcage.results.registry import NEIGHBOURS
 
 if TYPE_CHECKING:
     import xarray
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
 
 #: Pictures of every run, and those of a flexible cage; ``spectra`` of a run long enough for them.
 _OF_MOTION = ("mesh", "bearing", "orbit", "histories", "spectra")
+_OF_CAGE = ("mesh", "orbit")  # of these
 _OF_STRESS = ("modes", "stress_peak", "stress_envelope", "deformation")
 _UNSTRESSED = ("mesh", "orbit", "spectra")  # that are the same with and without stress
 FORMATS = ("png", "svg", "pdf")  # of curves; scenes are .png
@@ -76,7 +78,7 @@ class Scene:
     name: str
     dataset: xarray.Dataset
     bearing: Any  # its spec
-    mesh: CageMesh
+    mesh: CageMesh | None  # None: no cage
     defects: Sequence[Any]
     loads: np.ndarray  # (time, 3) F_x, F_y, F_z [N] on the inner ring
     clearance: float | None  # radial land clearance [m], where there is a land
@@ -92,7 +94,9 @@ class Scene:
     @property
     def followed(self) -> int:
         """Number of the element whose history is shown: that of the first damaged pocket, or 0."""
-        return self.defects[0].pockets(self.mesh.pocket_count)[0] if self.defects else 0
+        if not self.defects or self.mesh is None:
+            return 0
+        return int(self.defects[0].pockets(self.mesh.pocket_count)[0])
 
 
 #: Pictures registered from outside by name, with whether they need a flexible cage's stress.
@@ -113,9 +117,11 @@ def register_picture(
     add(PICTURES, name, (draw, needs_stress), what="picture")
 
 
-def picture_names(*, flexible: bool, resolved: bool) -> list[str]:
-    """Names of the pictures of a run: its cage ``flexible``, its spectra ``resolved``."""
+def picture_names(*, caged: bool = True, flexible: bool, resolved: bool) -> list[str]:
+    """Names of the pictures of a run: with a cage, that is ``flexible``, its spectra
+    ``resolved``."""
     names = [name for name in _OF_MOTION if resolved or name != "spectra"]
+    names = [name for name in names if caged or name not in _OF_CAGE]
     names += _OF_STRESS if flexible else ()
     return [
         *names,
@@ -229,9 +235,10 @@ def _geometry(scene: Scene, look: Look) -> Iterator[Drawing]:
     from flexcage.render.mesh_pictures import mesh_picture
     from flexcage.render.mode_pictures import mode_sheet
 
-    yield Drawing("mesh", "png", partial(
-        mesh_picture, scene.mesh, defects=scene.defects, azimuth=look.view, note=scene.label,
-    ))  # fmt: skip
+    if scene.mesh is not None:
+        yield Drawing("mesh", "png", partial(
+            mesh_picture, scene.mesh, defects=scene.defects, azimuth=look.view, note=scene.label,
+        ))  # fmt: skip
     if scene.stress is not None:
         s, b = scene.stress, scene.stress.basis
         yield Drawing("modes", "png", partial(
@@ -248,13 +255,14 @@ def _motion(scene: Scene, format: str) -> Iterator[Drawing]:
     numbers = BearingNumbers.of(b)
     index = _shown_sample(scene)
     yield Drawing("bearing", "png", partial(
-        bearing_picture, ds, b, index, cage_points=scene.mesh.points, cage_tets=scene.mesh.tets,
+        bearing_picture, ds, b, index, **_cage_of(scene),
         load=tuple(scene.loads[index, 1:]), axial=float(scene.loads[index, 0]), note=scene.label,
     ))  # fmt: skip
-    yield Drawing("orbit", format, partial(
-        orbit, ds, clearance=scene.clearance, guide=scene.guide, settle=scene.settle,
-        note=scene.label,
-    ))  # fmt: skip
+    if scene.mesh is not None:
+        yield Drawing("orbit", format, partial(
+            orbit, ds, clearance=scene.clearance, guide=scene.guide, settle=scene.settle,
+            note=scene.label,
+        ))  # fmt: skip
     yield Drawing("histories", format, partial(
         histories, ds, bearing=numbers, root_stress=_root_stress(scene), loads=scene.loads,
         element=scene.followed, settle=scene.settle, note=scene.label,
@@ -265,14 +273,24 @@ def _motion(scene: Scene, format: str) -> Iterator[Drawing]:
         ))  # fmt: skip
 
 
+def _cage_of(scene: Scene) -> dict[str, Any]:
+    """The cage's mesh, as pictures of the bearing take it; nothing without a cage."""
+    if scene.mesh is None:
+        return {}
+    return {"cage_points": scene.mesh.points, "cage_tets": scene.mesh.tets}
+
+
 def _shown_sample(scene: Scene) -> int:
     """The sample at which the bearing is shown: of the largest stress, or of the largest forces on
-    pockets."""
+    pockets, or without a cage between neighbours."""
     ds = scene.dataset
     if scene.stress is not None:
         return int(np.abs(ds["time"].values - scene.stress.time).argmin())
     first = ds.sizes["time"] - settled(ds, scene.settle).sizes["time"]
-    pushed = ds["pocket_force"].sum(["pocket", "face"]).values
+    if scene.mesh is None:
+        pushed = ds[NEIGHBOURS].sum("element").values
+    else:
+        pushed = ds["pocket_force"].sum(["pocket", "face"]).values
     return first + int(np.argmax(pushed[first:]))
 
 
@@ -297,6 +315,7 @@ def _stress(scene: Scene, s: StressPictures, look: Look) -> Iterator[Drawing]:
         stress_picture,
     )
 
+    assert scene.mesh is not None, "stress is that of a cage"
     t = scene.dataset["time"].values
     seen: dict[str, Any] = {
         "pocket_count": scene.mesh.pocket_count, "azimuth": look.azimuth, "note": scene.label,
@@ -322,10 +341,10 @@ def _animations(scene: Scene, look: Look) -> Iterator[Drawing]:
 
     s = scene.stress
     yield Drawing("bearing", "gif", partial(
-        animate_bearing, scene.dataset, scene.bearing, frames=40, cage_points=scene.mesh.points,
-        cage_tets=scene.mesh.tets, loads=scene.loads, note=scene.label,
+        animate_bearing, scene.dataset, scene.bearing, frames=40, loads=scene.loads,
+        note=scene.label, **_cage_of(scene),
     ))  # fmt: skip
-    if s is not None and s.frames:
+    if s is not None and scene.mesh is not None and s.frames:
         times, shifts, stresses = zip(*s.frames, strict=True)
         yield Drawing("stress", "gif", partial(
             animate_stress, s.nodes, s.cells, shifts, stresses, times,

@@ -26,6 +26,7 @@ from flexcage.render.shapes import Shapes, shapes_of
 from flexcage.render.solids import revolved, rotation
 from flexcage.render.stage import Picture, shoot
 from flexcage.results import metrics
+from flexcage.results.registry import NEIGHBOURS
 
 if TYPE_CHECKING:
     import pyvista
@@ -98,7 +99,7 @@ def instant(ds: xarray.Dataset, index: int) -> Instant:
     tilt = np.zeros((len(position), 2))
     if "element_tilt" in ds:
         tilt = at["element_tilt"].transpose("element", "tilt").values
-    force, pocket = race_loads(at), at["pocket_force"].transpose("pocket", "face")
+    force, caged = race_loads(at), metrics.caged(ds)
     return Instant(
         float(at["time"]),
         metrics.element(ds),
@@ -106,18 +107,25 @@ def instant(ds: xarray.Dataset, index: int) -> Instant:
         tilt,
         force[:, 0],
         force[:, 1],
-        {
-            name: pocket.sel(face=faces).sum("face").values
-            for name, faces in shown_faces(ds).items()
-        },
-        at["cage_position"].values,
-        at["cage_quaternion"].values,
+        _beside(at),
+        (at["cage_position"].values, at["cage_quaternion"].values) if caged else None,
         at["inner_position"].values,
         float(at["inner_angle"]),
         float(at["inner_speed"]),
-        float(at["cage_omega"].sel(axis="x")),
+        metrics.carrier(ds),
+        float(metrics.carrier_speed(at)),
         _spots_of(at),
     )
+
+
+def _beside(at: xarray.Dataset) -> dict[str, np.ndarray]:
+    """Forces of one instant on the faces of pockets, or without a cage between neighbours."""
+    if not metrics.caged(at):
+        return {f"next {metrics.element(at)}": at[NEIGHBOURS].values}
+    pocket = at["pocket_force"].transpose("pocket", "face")
+    return {
+        name: pocket.sel(face=faces).sum("face").values for name, faces in shown_faces(at).items()
+    }
 
 
 def _spots_of(at: xarray.Dataset) -> dict[int, np.ndarray]:
@@ -164,9 +172,9 @@ def bearing_layers(
             elements = _elements(now, shapes, chosen)
             layers.append(body_layer(elements, **style))
             layers.append(outline_layer(elements, colour="#30363c", width=0.225))
-    if cage is not None:
-        moved = cage.copy()
-        moved.points = cage.points @ rotation(now.cage_quaternion).T + now.cage_position
+    if cage is not None and now.cage is not None:
+        moved, (place, quaternion) = cage.copy(), now.cage
+        moved.points = cage.points @ rotation(quaternion).T + place
         layers.append(body_layer(moved, colour=BRASS))
         layers.append(outline_layer(moved, colour="#6b5320", width=0.225, opacity=0.8))
     return layers
@@ -272,7 +280,8 @@ def _middle(
     turn = "↺" if now.inner_speed > 0.0 else "↻"
     rpm = 30.0 / pi
     lines = (
-        f"{turn} inner ring {now.inner_speed * rpm:.0f} rpm\ncage {now.cage_speed * rpm:.0f} rpm"
+        f"{turn} inner ring {now.inner_speed * rpm:.0f} rpm\n"
+        f"{now.carrier} {now.carrier_speed * rpm:.0f} rpm"
     )
     radial, axial = load
     if axial:
@@ -328,13 +337,14 @@ def _bars(figure: Any, left: float, now: Instant, top: float) -> None:
         shift, label = (i - 0.5 * (count - 1)) * wide, name.removesuffix(" face")
         below.bar(k + shift, values, wide - 0.01, color=_FACE_COLOURS[i], label=label)
     most = max(float(values.max()) for values in now.pocket.values())
+    what = "pocket" if now.cage is not None else now.element
     below.set(
-        ylabel="pocket force [N]",
-        xlabel="pocket",
+        ylabel="pocket force [N]" if now.cage is not None else "force on the next [N]",
+        xlabel=what,
         ylim=(0.0, sheet.rounded_up(1.02 * most)),
     )
     if not most:
-        sheet.nothing(below, "no pocket is touched")
+        sheet.nothing(below, f"no {what} is touched")
     _bar_axis(below, n)
 
 

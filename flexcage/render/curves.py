@@ -15,6 +15,7 @@ from flexcage.render.elements import shown_faces
 from flexcage.results import metrics
 from flexcage.results.known import KNOWN
 from flexcage.results.metrics import BearingNumbers
+from flexcage.results.registry import NEIGHBOURS
 from flexcage.stress.places import in_words
 
 if TYPE_CHECKING:
@@ -181,8 +182,8 @@ def histories(
     title: str = "Histories",
     note: str = "",
 ) -> Path:
-    """Cage speed, pocket forces, root stress (if given) and speeds of elements over time;
-    sliding speeds and contact angles as well where contact angles move.
+    """Cage speed, pocket forces (without a cage those of neighbours), root stress (if given) and
+    speeds of elements over time; sliding speeds and contact angles as well where these move.
 
     ``bearing`` adds the speeds without slip, of balls at their mean contact angles once settled.
     ``root_stress`` (time, place) or (time,) is in Pa. ``loads`` (time, 3) are F_x, F_y, F_z [N] on
@@ -192,7 +193,8 @@ def histories(
     """
     if bearing is not None:
         bearing = metrics.at_own_angles(metrics.settled(ds, settle), bearing)
-    panels: list[Callable[..., None]] = [_speed_panel, _pocket_panel]
+    beside = _pocket_panel if metrics.caged(ds) else _neighbour_panel
+    panels: list[Callable[..., None]] = [_speed_panel, beside]
     if drive_varies(ds, loads):
         panels.insert(0, _drive_panel)
     if root_stress is not None:
@@ -268,12 +270,29 @@ def _drive_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, *, loads, **_: Any)
 
 
 def _speed_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, *, bearing, **_: Any) -> None:
-    ax.plot(t, ds["cage_omega"].sel(axis="x") * RPM, color=sheet.BLUE, label="cage")
+    ax.plot(t, metrics.carrier_speed(ds) * RPM, color=sheet.BLUE, label=metrics.carrier(ds))
     if bearing is not None:
         ideal = ds["inner_speed"] * bearing.kinematics(1.0).cage_speed * RPM
         ax.plot(t, ideal, color=sheet.VERMILION, ls="--", lw=1.3, label="epicyclic (no slip)")
     ax.set_ylabel("speed [rpm]")
-    _legend(ax, KNOWN["cage_speed"].title)
+    _legend(ax, carrier_title(ds))
+
+
+def carrier_title(ds: xarray.Dataset) -> str:
+    """Title of the speed of what goes round with the elements."""
+    if metrics.caged(ds):
+        return KNOWN["cage_speed"].title
+    return KNOWN["orbital_speed"].titled(Element=metrics.element(ds).capitalize())
+
+
+def _neighbour_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, **_: Any) -> None:
+    force = ds[NEIGHBOURS].max("element")
+    ax.plot(t, force, color=sheet.VERMILION, lw=0.8)
+    ax.set_ylim(bottom=0.0)
+    if not force.values.any():
+        sheet.nothing(ax, f"no {metrics.element(ds)} touches the next one")
+    ax.set_ylabel("force [N]")
+    _legend(ax, f"Largest force between neighbouring {metrics.element(ds)}s, at the samples")
 
 
 def _pocket_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, **_: Any) -> None:

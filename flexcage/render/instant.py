@@ -18,11 +18,12 @@ class Instant:
     tilt: np.ndarray  # (n, 2) skew, tilt; zero without an axis
     inner_load: np.ndarray  # (n,) N
     outer_load: np.ndarray
-    pocket: Mapping[str, np.ndarray]  # by name of faces: (n,) N
-    cage_position: np.ndarray
-    cage_quaternion: np.ndarray
+    # by name of faces, without a cage of neighbours: (n,) N
+    pocket: Mapping[str, np.ndarray]
+    cage: tuple[np.ndarray, np.ndarray] | None  # position and quaternion
     inner_position: np.ndarray
     inner_angle: float
     inner_speed: float
-    cage_speed: float
+    carrier: str  # what goes round with the elements, in words, and its speed
+    carrier_speed: float
     spots: Mapping[int, np.ndarray] = field(default_factory=dict)  # by element: direction (3,)

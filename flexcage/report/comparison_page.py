@@ -28,11 +28,12 @@ def comparison_page(
     found: Comparison,
     statements: Mapping[str, Sequence[str]],
     cases: Mapping[str, str],
-    picture: Path,
+    pictures: Sequence[Path],
     *,
     title: str,
 ) -> Page:
-    """The page: the ten figures that matter and the picture first, all figures and both cases last.
+    """The page: the ten figures that matter and the pictures of cage forces first, all figures and
+    both cases last.
 
     ``title`` names the case or both. By the runs' names, ``statements`` say what was computed and
     ``cases`` are their case files.
@@ -46,7 +47,7 @@ def comparison_page(
             Table(("figure", "remark"), found.remarks(), fold="Remarks on these figures"),
         ]),
         Section("Warnings", [Notices(found.warnings, none="None.")]),
-        Section("Cage forces", [Gallery([Image(picture, FORCES, wide=True)])]),
+        *(Section("Cage forces", [Gallery([Image(path, FORCES, wide=True)])]) for path in pictures),
         Section("All figures", [
             _table(found, pairs, title) for title, pairs in found.sections.items() if pairs
         ]),

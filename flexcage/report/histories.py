@@ -9,6 +9,7 @@ import numpy as np
 
 from flexcage.render.curves import (
     beyond_clearance,
+    carrier_title,
     drive_varies,
     land_circle,
     radial_and_axial,
@@ -20,7 +21,7 @@ from flexcage.report.plots import add_band, add_curve, new_figure
 from flexcage.report.thinning import thinned
 from flexcage.results import metrics
 from flexcage.results.audit import imbalance
-from flexcage.results.known import KNOWN
+from flexcage.results.registry import NEIGHBOURS
 from flexcage.stress.places import in_words
 
 if TYPE_CHECKING:
@@ -40,7 +41,8 @@ def history_charts(scene: Scene, numbers: BearingNumbers) -> list[Chart]:
     histories and of the orbit show."""
     ds = scene.dataset
     numbers = metrics.at_own_angles(metrics.settled(ds, scene.settle), numbers)
-    charts = [_cage_speed(ds, numbers), _pocket_force(ds)]
+    beside = _pocket_force(ds) if metrics.caged(ds) else _neighbour_force(ds)
+    charts = [_carrier_speed(ds, numbers), beside]
     if drive_varies(ds, scene.loads):
         charts = [*_drive(ds, scene.loads), *charts]
     if scene.stress is not None:
@@ -55,7 +57,7 @@ def history_charts(scene: Scene, numbers: BearingNumbers) -> list[Chart]:
             chart.figures[0][1].add_vrect(
                 t[0], end, fillcolor=_LEFT_OUT, layer="below", line_width=0
             )
-    return [*charts, _orbit(scene)]
+    return [*charts, *([_orbit(scene)] if metrics.caged(ds) else ())]
 
 
 def _ms(ds: xarray.Dataset) -> np.ndarray:
@@ -74,12 +76,19 @@ def _drive(ds: xarray.Dataset, loads: np.ndarray) -> list[Chart]:
     return [*charts, *([Chart("Load on the inner ring", [("", load)])] if load.data else [])]
 
 
-def _cage_speed(ds: xarray.Dataset, numbers: BearingNumbers) -> Chart:
+def _carrier_speed(ds: xarray.Dataset, numbers: BearingNumbers) -> Chart:
     figure = new_figure(TIME, "speed [rpm]")
     ideal = ds["inner_speed"].values * numbers.kinematics(1.0).cage_speed * RPM
-    add_curve(figure, _ms(ds), ds["cage_omega"].sel(axis="x").values * RPM, "cage", color=BLUE)
+    speed = metrics.carrier_speed(ds).values * RPM
+    add_curve(figure, _ms(ds), speed, metrics.carrier(ds), color=BLUE)
     add_curve(figure, _ms(ds), ideal, "without slip", color=VERMILION, dash="dash")
-    return Chart(KNOWN["cage_speed"].title, [("", figure)])
+    return Chart(carrier_title(ds), [("", figure)])
+
+
+def _neighbour_force(ds: xarray.Dataset) -> Chart:
+    figure, one = new_figure(TIME, "force [N]", showlegend=False), metrics.element(ds)
+    add_curve(figure, _ms(ds), ds[NEIGHBOURS].max("element").values, f"next {one}", color=VERMILION)
+    return Chart(f"Force between neighbouring {one}s, largest of all", [("", figure)])
 
 
 def _pocket_force(ds: xarray.Dataset) -> Chart:

@@ -160,6 +160,7 @@ def _without_margin(row: Row) -> str:
 
 def cage_stress(scene: Scene, stress: StressPictures, name: str = "") -> CageStress:
     """What the 3D view needs of a run."""
+    assert scene.mesh is not None, "stress is that of a cage"
     return CageStress(
         name, stress.nodes, stress.cells, stress.displacement, stress.von_mises, stress.time,
         stress.peak_vertex, scene.mesh.pocket_count,
@@ -169,7 +170,9 @@ def cage_stress(scene: Scene, stress: StressPictures, name: str = "") -> CageStr
 def _stress(account: RunAccount) -> list[Section]:
     from flexcage.render.stress_pictures import nice_scale
 
-    stress = account.scene.stress
+    stress, mesh = account.scene.stress, account.scene.mesh
+    if mesh is None:
+        return []
     if stress is None:
         none = Prose(["The cage of this run is rigid: it has no stress."])
         return [Section("Stress in the cage", [none])]

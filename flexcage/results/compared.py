@@ -20,7 +20,9 @@ TEN = 10
 FIRST = (
     "cage_speed", "cage_slip_ratio", "whirl_radius", "pocket_force_mean", "pocket_force_pass_peak",
     "pocket_force_peak", "race_force_inner", "drive_torque", "stress_mean_peak", "stress_peak",
-    "slip_loaded", "contact_frequency_total", "contact_angle_inner", "race_force_outer",
+    "orbital_speed", "orbital_slip_ratio", "neighbour_force_mean", "neighbour_force_pass_peak",
+    "neighbour_force_peak", "slip_loaded", "contact_frequency_total", "contact_angle_inner",
+    "race_force_outer",
 )  # fmt: skip
 HEADS = ("figure", "ratio", "beyond the intervals")
 YES, NO, NO_INTERVAL = "yes", "no", "no interval"

@@ -185,6 +185,8 @@ def check_there(name: str, known: Iterable[Any]) -> None:
     if name in VARIABLES:
         has = whose(families_with(name))
         hint = f"it is recorded of {has} alone" if has else "this run did not record it"
+        if VARIABLES[name].of_cage and "cage_position" not in known:
+            hint = "the run's bearing has no cage"
         hint += f" ({VARIABLES[name].long_name})"
     parts = [part for part in re.split(r"[\[,; ]+", name) if part in known]
     if "[" in name and parts:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from math import isfinite
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,7 +16,8 @@ from flexcage.results.bootstrap import FEWEST
 from flexcage.results.contact_activity import EVENTS, contact_series
 from flexcage.results.known import KNOWN, NO_DRIFT, SETTLING, KnownFigure, marked
 from flexcage.results.metrics import BearingNumbers, SlipRange
-from flexcage.results.ring_figures import constraint_sections, ring_section
+from flexcage.results.registry import NEIGHBOURS
+from flexcage.results.ring_figures import constraint_sections, outer_sections, ring_section
 from flexcage.results.statistics import Record, Windows, element_passes
 from flexcage.results.summary import Row, Section, Summary, figure, section_of, statistic
 
@@ -62,19 +63,17 @@ def summarise(
     part = metrics.settled(ds, settle)
     windows = element_passes(part, bearing)
     own: OwnFigures = metrics.family(ds).figures()
+    caged = metrics.caged(part)
+    pockets = _force_rows(part, windows) if caged else ()
     sections = [
         section_of((*_speed_rows(part, bearing), *own.speeds(part, bearing))),
         own.slip(part, bearing, slip_range or SlipRange()),
-        section_of((*_motion_rows(part, bearing), *own.motion(part))),
-        section_of(
-            (
-                *_force_rows(part, windows),
-                *_race_rows(part),
-                *own.forces(part, windows),
-            )
-        ),
-        section_of(_contact_rows(part, windows, events)),
+        *([section_of((*_motion_rows(part, bearing), *own.motion(part)))] if caged else ()),
+        section_of((*pockets, *_race_rows(part), *own.forces(part, windows))),
+        *([section_of(_contact_rows(part, windows, events))] if caged else ()),
+        *_neighbour_sections(part, windows, events, bearing),
         ring_section(part, windows),
+        *outer_sections(part, windows),
         *constraint_sections(part, windows),
     ]
     records = {r.key: r.record for s in sections for r in s.rows if r.record is not None}
@@ -90,7 +89,8 @@ def _statistics_rows(
     begin, end = (float(ds["time"][k]) for k in (0, -1))
     count = len(windows.first)
     few = "" if count >= FEWEST else f"; intervals need {FEWEST}"
-    drifts = {KNOWN[key].quantity: records[key].drift for key in marked(SETTLING)}
+    watched = [key for key in marked(SETTLING) if key in records]
+    drifts = {KNOWN[key].quantity: records[key].drift for key in watched}
     known = any(isfinite(d) for d in drifts.values())
     drifting = ", ".join(name for name, d in drifts.items() if d > JOINT)
     remedy = "" if known else f"too few passes to tell: {2 * FEWEST} are needed"
@@ -113,21 +113,25 @@ def _speed_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...]:
     speed = metrics.cage_speed(ds, bearing)
     part = metrics.whole_revolutions(ds)
     windows = element_passes(part, bearing)
-    omega = part["cage_omega"].sel(axis="x").values
+    omega = metrics.carrier_speed(part).values
     own = metrics.at_own_angles(part, bearing)
     ideal = part["inner_speed"].values * own.kinematics(1.0).cage_speed
     inner = float(ds["inner_speed"].mean())
+    slip, curved = windows.ratio(ideal - omega, ideal), of_curvature(part, bearing)
+    if not metrics.caged(ds):
+        whole, name = f"mean of {speed.revolutions:.2f} turns", metrics.element(ds).capitalize()
+        return (
+            figure("inner_speed", inner),
+            statistic("orbital_speed", windows.mean(omega), whole, value=speed.mean, Element=name),
+            figure("epicyclic_speed", speed.epicyclic, at_angles(own)),
+            statistic("orbital_slip_ratio", slip, curved, value=speed.slip_ratio, Element=name),
+        )
     whole = f"mean of {speed.revolutions:.2f} cage revolutions"
     return (
         figure("inner_speed", inner),
         statistic("cage_speed", windows.mean(omega), whole, value=speed.mean),
         figure("epicyclic_speed", speed.epicyclic, at_angles(own)),
-        statistic(
-            "cage_slip_ratio",
-            windows.ratio(ideal - omega, ideal),
-            of_curvature(part, bearing),
-            value=speed.slip_ratio,
-        ),
+        statistic("cage_slip_ratio", slip, curved, value=speed.slip_ratio),
         statistic("cage_speed_ripple", windows.deviation(omega), "standard deviation over mean"),
     )
 
@@ -204,16 +208,51 @@ def _contact_rows(
             windows.mean(series.free),
             "of the time: no pocket and no land touches the cage",
         ),
-        *_touching_rows(ds, events),
     )
 
 
-def _touching_rows(ds: xarray.Dataset, events: xarray.Dataset | None) -> tuple[Row, ...]:
-    """How often elements met their neighbours, in families whose elements can."""
-    if "neighbour_force" not in ds:
-        return ()
+def _neighbour_sections(
+    ds: xarray.Dataset, windows: Windows, events: xarray.Dataset | None, bearing: BearingNumbers
+) -> Iterator[Section]:
+    """How elements press and met their neighbours, where they can."""
+    if NEIGHBOURS not in ds:
+        return
+    forces = () if metrics.caged(ds) else _neighbour_rows(ds, windows, bearing)
+    yield section_of((*forces, _touches(ds, events)))
+
+
+def _neighbour_rows(
+    ds: xarray.Dataset, windows: Windows, bearing: BearingNumbers
+) -> tuple[Row, ...]:
+    """Forces between neighbours, and how far the loosest pair of them is apart."""
+    force = ds[NEIGHBOURS].transpose("time", "element").values.astype(float)
+    touching, name = force > metrics.TOUCHING, metrics.element(ds)
+    summed, largest = np.where(touching, force, 0.0).sum(axis=1), force.max(axis=1)
+    words: Any = {"element": name, "Element": name.capitalize()}
+    at = np.unravel_index(int(np.argmax(force)), force.shape)
+    where = f"{name} {at[1]}, t = {float(ds['time'][at[0]]) * 1e3:.3f} ms"
+    apart = metrics.gaps(ds, bearing).max(axis=1)
+    return (
+        statistic(
+            "neighbour_force_mean", windows.ratio(summed, touching.sum(axis=1)),
+            "while in contact", **words,
+        ),
+        statistic(
+            "neighbour_force_pass_peak", windows.peak(largest), pass_peak(name), **words
+        ),
+        figure(
+            "neighbour_force_peak", float(force.max()),
+            f"{where}, at the samples" if force.any() else "none touches", **words,
+        ),
+        figure("neighbour_contact", float(touching.mean()), "of the time", **words),
+        statistic("largest_gap", windows.mean(apart), **words),
+    )  # fmt: skip
+
+
+def _touches(ds: xarray.Dataset, events: xarray.Dataset | None) -> Row:
+    """How often elements met their neighbours."""
     if events is None:
-        closed = ds["neighbour_force"].transpose("time", "element").values > 0.0
+        closed = ds[NEIGHBOURS].transpose("time", "element").values > 0.0
         count = int((closed[1:] & ~closed[:-1]).sum())
     else:
         time, place = events["time"].values, events["place"].values.astype(str)
@@ -222,7 +261,7 @@ def _touching_rows(ds: xarray.Dataset, events: xarray.Dataset | None) -> tuple[R
             (begun & (time >= float(ds["time"][0])) & (time <= float(ds["time"][-1]))).sum()
         )
     name = metrics.element(ds).capitalize()
-    return (figure("element_touches", count, idle=count == 0, Element=name),)
+    return figure("element_touches", count, idle=count == 0 and metrics.caged(ds), Element=name)
 
 
 def _race_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
@@ -237,10 +276,10 @@ def _race_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
 def _energy_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
     check = audit.energy_audit(ds)
     lacking = "" if isfinite(check.of_cage) else ": too little"
-    bounds = (
-        f"at most {100.0 * audit.OF_DRIVE:g} % of the drive's work, "
-        f"{100.0 * audit.OF_CAGE:g} % of the cage's losses"
-    )
+    caged = metrics.caged(ds)
+    bounds = f"at most {100.0 * audit.OF_DRIVE:g} % of the drive's work"
+    if caged:
+        bounds += f", {100.0 * audit.OF_CAGE:g} % of the cage's losses"
     note = {
         audit.PASSED: bounds,
         audit.UNJUDGED: "too little work to judge by",
@@ -263,6 +302,7 @@ def _energy_rows(ds: xarray.Dataset) -> tuple[Row, ...]:
             "energy_of_cage",
             check.of_cage,
             f"what pockets, lands and modes dissipate{lacking}",
+            idle=not caged,
         ),
         *(
             figure(f"work_{k}", v, idle=not ds["work"].sel(channel=k).values.any())

@@ -19,6 +19,7 @@ from scipy.spatial.transform import Rotation
 
 from flexcage.core.errors import InputError
 from flexcage.core.units import mm
+from flexcage.results.metrics import of_cage
 from flexcage.results.rig_file import CHANNELS, FARTHEST
 
 if TYPE_CHECKING:
@@ -223,8 +224,8 @@ def of_run(ds: xarray.Dataset, *, rate: float | None = None) -> tuple[np.ndarray
     At the run's samples, or ``rate`` [Hz] times a second from its first sample on, by linear
     interpolation between them (``sample_times``).
     """
-    turn = Rotation.from_quat(ds["cage_quaternion"].values, scalar_first=True)
-    centre = ds["cage_position"].values - ds["outer_position"].values
+    turn = Rotation.from_quat(of_cage(ds, "cage_quaternion").values, scalar_first=True)
+    centre = of_cage(ds, "cage_position").values - ds["outer_position"].values
     axis = turn.as_matrix()[:, :, 0]
     if rate is None:
         return centre, axis
@@ -238,7 +239,7 @@ def run_out(ds: xarray.Dataset, *, total: float, circle: float) -> np.ndarray:
     radius [m] it runs out by ``total`` [m], lowest at pocket 0, and turns with the cage."""
     slope = 0.5 * total / circle
     normal = np.array([1.0, slope, 0.0]) / np.hypot(1.0, slope)
-    turn = Rotation.from_quat(ds["cage_quaternion"].values, scalar_first=True)
+    turn = Rotation.from_quat(of_cage(ds, "cage_quaternion").values, scalar_first=True)
     return turn.apply(normal)
 
 

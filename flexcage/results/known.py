@@ -18,6 +18,7 @@ from flexcage.results.registry import whose
 from flexcage.system.data import POWERS
 
 FLEXIBLE, RIVETED, FATIGUE, WEAR = "flexible cage", "riveted cage", "fatigue", "wear"
+CAGED, FULL = "a cage", "full complement"
 
 #: What a figure is: may it be below zero, is it a mean or a peak over windows of the run (and so
 #: has an interval), is it a text instead of a number, does only a run read or drawn later have it.
@@ -34,8 +35,8 @@ SETTLING, CONVERGENCE = "settling", "convergence"
 NO_DRIFT = "none"
 
 #: Words of titles that depend on the bearing or its cage, and what stands for them in a list.
-WORDS = {"Element": "Element", "Faces": "Pocket faces", "place": "a corner or edge",
-         "walls": "pocket walls"}  # fmt: skip
+WORDS = {"Element": "Element", "element": "element", "Faces": "Pocket faces",
+         "place": "a corner or edge", "walls": "pocket walls"}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -87,18 +88,40 @@ def _statistics() -> Iterator[KnownFigure]:
 
 
 def _speeds() -> Iterator[KnownFigure]:
+    yield from figures_in("Speeds", ("inner_speed", "Inner ring speed", "rpm", "mean", SIGNED))
     yield from figures_in(
         "Speeds",
-        ("inner_speed", "Inner ring speed", "rpm", "mean", SIGNED),
         ("cage_speed", "Cage speed", "rpm", "mean over whole turns of the cage", SIGNED, STATISTIC,
          BRIEF, LARGE, SETTLING, CONVERGENCE),
+        needs=CAGED,
+    )
+    yield from figures_in(
+        "Speeds",
+        ("orbital_speed", "{Element}s' orbital speed", "rpm",
+         "mean of all, over whole turns; without a cage", SIGNED, STATISTIC, BRIEF, LARGE, SETTLING,
+         CONVERGENCE),
+        needs=FULL,
+    )
+    yield from figures_in(
+        "Speeds",
         ("epicyclic_speed", "Epicyclic cage speed", "rpm",
          "cage speed of pure rolling, of balls at the run's mean contact angles", SIGNED),
+    )
+    yield from figures_in(
+        "Speeds",
         ("cage_slip_ratio", "Cage slip ratio", "%",
          "(epicyclic speed - cage speed) / epicyclic speed", SIGNED, STATISTIC, BRIEF, LARGE,
          CONVERGENCE),
         ("cage_speed_ripple", "Cage speed ripple", "%",
          "standard deviation over mean of the cage's speed", STATISTIC, CONVERGENCE),
+        needs=CAGED,
+    )
+    yield from figures_in(
+        "Speeds",
+        ("orbital_slip_ratio", "{Element}s' orbital slip ratio", "%",
+         "(epicyclic speed - orbital speed) / epicyclic speed; without a cage", SIGNED, STATISTIC,
+         BRIEF, LARGE, CONVERGENCE),
+        needs=FULL,
     )
 
 
@@ -138,6 +161,7 @@ def _motion() -> Iterator[KnownFigure]:
         ("tilt_mean", "Cage tilt, mean", "deg", "angle between the cage's axis and the bearing's",
          STATISTIC),
         ("tilt_max", "Cage tilt, largest", "deg", "largest such angle"),
+        needs=CAGED,
     )
 
 
@@ -155,6 +179,10 @@ def _forces() -> Iterator[KnownFigure]:
         ("pocket_force_ratio", "Pocket force, largest / mean", "",
          "largest over mean while in contact"),
         ("pocket_contact", "{Faces} in contact", "%", "share of faces and time"),
+        needs=CAGED,
+    )
+    yield from figures_in(
+        "Forces",
         ("race_force_inner", "Inner race on an element, peak", "N", "largest normal force", BRIEF),
         ("race_force_outer", "Outer race on an element, peak", "N", "largest normal force", BRIEF),
     )
@@ -166,6 +194,28 @@ def _forces() -> Iterator[KnownFigure]:
          STATISTIC),
         ("free_flight_share", "Free flight", "%",
          "share of the time in which no pocket and no land touches the cage", STATISTIC),
+        needs=CAGED,
+    )
+    yield from figures_in(
+        "Contacts of neighbours",
+        ("neighbour_force_mean", "Force on the next {element}, mean", "N",
+         "of an element while it touches the next one", STATISTIC, BRIEF, LARGE, SETTLING,
+         CONVERGENCE),
+        ("neighbour_force_pass_peak", "Force on the next {element}, peak of a pass", "N",
+         "mean of the largest in each element pass", STATISTIC, BRIEF, CONVERGENCE),
+        ("neighbour_force_peak", "Force on the next {element}, largest", "N",
+         "largest of the settled part", BRIEF, LARGE),
+        ("neighbour_contact", "{Element}s that touch the next one", "%",
+         "share of elements and time"),
+        ("largest_gap", "Largest gap between {element}s, mean", "mm",
+         "between neighbours, along the pitch circle; mean over time", STATISTIC),
+        needs=FULL,
+    )
+    yield from figures_in(
+        "Contacts of neighbours",
+        ("element_touches", "{Element}s touching the next one", "",
+         "times in the settled part that an element met the next one; with a cage shown if there "
+         "are any"),
     )
 
 
@@ -185,6 +235,20 @@ def _ring() -> Iterator[KnownFigure]:
          SIGNED, STATISTIC),
         ("reaction_moment_z", "Inner ring, moment about z", "N mm", "what holds the ring, mean",
          SIGNED, STATISTIC),
+    )
+
+
+def _outer() -> Iterator[KnownFigure]:
+    yield from figures_in(
+        "Outer ring",
+        ("outer_force_radial", "Outer ring, force across the axis", "N",
+         "mean size of what all contacts press it with", STATISTIC),
+        ("outer_force_axial", "Outer ring, force along the axis", "N", "mean", SIGNED, STATISTIC),
+        ("outer_moment", "Outer ring, moment across the axis", "N mm",
+         "mean size, about its centre", STATISTIC),
+        ("outer_displacement", "Outer ring, displacement across the axis", "um",
+         "of the mean place, on a mount that yields"),
+        ("outer_tilt", "Outer ring, tilt", "mrad", "mean angle of its axis, likewise", STATISTIC),
     )
 
 
@@ -322,8 +386,8 @@ def _solver() -> Iterator[KnownFigure]:
 # fmt: on
 
 
-_FLOORS = (_statistics, _speeds, _slip, _motion, _forces, _ring, _energy, _film, _cage, _late,
-           _solver)  # fmt: skip
+_FLOORS = (_statistics, _speeds, _slip, _motion, _forces, _ring, _outer, _energy, _film, _cage,
+           _late, _solver)  # fmt: skip
 
 
 class _BySection(Parts[KnownFigure]):

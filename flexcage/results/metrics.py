@@ -1,5 +1,7 @@
 """What a run's motion amounts to: cage speed and slip, whirl, tilt, roller slip, contact forces.
 
+Without a cage its elements' mean orbit takes its place (``carrier_speed``).
+
 Every function takes the dataset of a run and plain numbers, and returns plain numbers or labelled
 arrays. Definitions: slip compares like with like (both speeds in the inertial frame, or both
 relative to the cage), with the theoretical speed from the instantaneous inner speed; averages are
@@ -201,15 +203,54 @@ def settled(ds: xarray.Dataset, settle: float = 0.3) -> xarray.Dataset:
     return out
 
 
-def cage_angle(ds: xarray.Dataset) -> np.ndarray:
-    """Angle turned by the cage about the bearing axis [rad], continuous, (time,)."""
+def caged(ds: xarray.Dataset) -> bool:
+    """Has the run's bearing a cage?"""
+    return "cage_position" in ds
+
+
+def of_cage(ds: xarray.Dataset, name: str) -> xarray.DataArray:
+    """A variable of the cage; InputError for a run without one."""
+    if name not in ds and not caged(ds):
+        raise InputError(
+            f"The run's bearing has no cage, and so no '{name}'; neighbour_force has how elements "
+            "press each other.",
+            where=name,
+        )
+    return ds[name]
+
+
+def carrier(ds: xarray.Dataset) -> str:
+    """What goes round with the elements, in words: "cage", or without one "balls", "rollers"."""
+    return "cage" if caged(ds) else f"{element(ds)}s"
+
+
+def carrier_angle(ds: xarray.Dataset) -> np.ndarray:
+    """Angle turned about the bearing axis [rad], continuous, (time,): by the cage, or without one
+    by the elements in the mean."""
+    if not caged(ds):
+        psi: np.ndarray = ds["element_position"].sel(cyl="psi").mean("element").values
+        return psi
     q = ds["cage_quaternion"].values
     return np.unwrap(2.0 * np.arctan2(q[:, 1], q[:, 0]), period=2.0 * np.pi)
 
 
+def carrier_speed(ds: xarray.Dataset) -> xarray.DataArray:
+    """Speed about the bearing axis, (time,) [rad/s]: of the cage, or without one of the elements in
+    the mean."""
+    if caged(ds):
+        return ds["cage_omega"].sel(axis="x", drop=True)
+    around = ds["element_velocity"].sel(cyl="psi", drop=True)
+    found: xarray.DataArray = (around / ds["element_position"].sel(cyl="r", drop=True)).mean(
+        "element"
+    )
+    found.attrs = {"units": "rad/s", "long_name": "mean orbital speed of the elements"}
+    return found
+
+
 def whole_revolutions(ds: xarray.Dataset) -> xarray.Dataset:
-    """The longest leading part with a whole number of cage revolutions (all, if under one)."""
-    turned = np.abs(cage_angle(ds) - cage_angle(ds)[0]) / (2.0 * np.pi)
+    """The longest leading part with a whole number of revolutions of the cage, or without one of
+    the elements (all, if under one)."""
+    turned = np.abs(carrier_angle(ds) - carrier_angle(ds)[0]) / (2.0 * np.pi)
     full = np.floor(turned[-1] + 1e-9)
     if full < 1.0:
         return ds
@@ -223,9 +264,10 @@ def varies(values: np.ndarray, share: float = 0.01) -> bool:
 
 
 def cage_speed(ds: xarray.Dataset, bearing: BearingNumbers) -> CageSpeed:
-    """Mean cage speed against the epicyclic speeds of the mean inner speed."""
+    """Mean speed of the cage, or without one of the elements' orbits, against the epicyclic speeds
+    of the mean inner speed."""
     part = whole_revolutions(ds)
-    t, angle = part["time"].values, cage_angle(part)
+    t, angle = part["time"].values, carrier_angle(part)
     mean = (angle[-1] - angle[0]) / (t[-1] - t[0])
     inner = _mean(t, part["inner_speed"].values)
     own, nominal = (
@@ -345,7 +387,7 @@ def whirl(ds: xarray.Dataset, *, about: str = "mean") -> Whirl:
     r = whirl_radius(ds, about=about)
     mean = float(r.mean())
     phase = np.unwrap(np.arctan2(yz[:, 1], yz[:, 0]))
-    turned = cage_angle(ds)
+    turned = carrier_angle(ds)
     cage = turned[-1] - turned[0]
     return Whirl(
         about,
@@ -364,7 +406,8 @@ def orbit(ds: xarray.Dataset) -> np.ndarray:
 
 def centre_of(ds: xarray.Dataset, body: str) -> np.ndarray:
     """Centre of a body ("cage", "inner") relative to the outer ring's, (time, 2): y and z [m]."""
-    yz = ds[f"{body}_position"].sel(axis=["y", "z"]).values
+    place = of_cage(ds, "cage_position") if body == "cage" else ds[f"{body}_position"]
+    yz = place.sel(axis=["y", "z"]).values
     if "outer_position" in ds:
         yz = yz - ds["outer_position"].sel(axis=["y", "z"]).values
     return yz
@@ -376,7 +419,7 @@ def centre_speed(ds: xarray.Dataset, *, low_pass: float | None = None) -> np.nda
     The filter is a Butterworth of order 4, run forwards and backwards over the components. NaN
     where the samples are too slow or too few to filter.
     """
-    v = ds["cage_velocity"].values
+    v = of_cage(ds, "cage_velocity").values
     if low_pass is not None:
         from flexcage.results.lowpass import butterworth, low_passed_both_ways
 
@@ -404,13 +447,15 @@ def sampling_rate(ds: xarray.Dataset) -> float:
 
 
 def tilt(ds: xarray.Dataset, *, body: str = "cage") -> xarray.DataArray:
-    """Tilt of the axis a of the cage, or of the "inner" ring, against the bearing axis [rad].
+    """Tilt of the axis a of the cage, or of the "inner" or "outer" ring, against the bearing's
+    [rad].
 
     (time, component): total acos(a.x), and the signed atan2(a_y, a_x) and atan2(a_z, a_x).
     """
     import xarray as xr
 
-    w, x, y, z = ds[f"{body}_quaternion"].values.T
+    name = f"{body}_quaternion"
+    w, x, y, z = (of_cage(ds, name) if body == "cage" else ds[name]).values.T
     a = np.stack([1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)])
     total = np.arctan2(np.hypot(a[1], a[2]), a[0])
     parts = np.stack([total, np.arctan2(a[1], a[0]), np.arctan2(a[2], a[0])], axis=1)
@@ -425,7 +470,7 @@ def tilt(ds: xarray.Dataset, *, body: str = "cage") -> xarray.DataArray:
 
 def pocket_forces(ds: xarray.Dataset, *, threshold: float = TOUCHING) -> PocketForces:
     """Mean (while above ``threshold`` [N]) and peak of the normal forces on pocket faces."""
-    force = ds["pocket_force"].transpose("time", "pocket", "face")
+    force = of_cage(ds, "pocket_force").transpose("time", "pocket", "face")
     values, peaks = force.values, pocket_peaks(ds).values
     touching = values > threshold
     at = np.unravel_index(int(np.argmax(peaks)), peaks.shape)
@@ -445,7 +490,7 @@ def pocket_peaks(ds: xarray.Dataset) -> xarray.DataArray:
     A contact lasts a few samples, whose largest is some 15 % less than that of the solver's steps.
     Of runs that lack it, the samples themselves.
     """
-    peaks = ds["pocket_peak"] if "pocket_peak" in ds else ds["pocket_force"]
+    peaks = ds["pocket_peak"] if "pocket_peak" in ds else of_cage(ds, "pocket_force")
     return peaks.transpose("time", "pocket", "face")
 
 
@@ -454,10 +499,19 @@ def pocket_force_series(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Over time: sum of normal forces on pocket faces in contact [N], number of such faces, and
     the largest force [N] since the sample before, each (time,)."""
-    force = ds["pocket_force"].transpose("time", "pocket", "face").values.astype(float)
+    force = of_cage(ds, "pocket_force").transpose("time", "pocket", "face").values.astype(float)
     touching = force > threshold
     total = np.where(touching, force, 0.0).sum(axis=(1, 2))
     return total, touching.sum(axis=(1, 2)), pocket_peaks(ds).max(("pocket", "face")).values
+
+
+def gaps(ds: xarray.Dataset, bearing: BearingNumbers) -> np.ndarray:
+    """How far (time, element) [m] the next element is from every one, along the pitch circle; below
+    zero by what two are pressed together."""
+    psi = ds["element_position"].sel(cyl="psi").transpose("time", "element").values
+    ahead = np.diff(psi, axis=1, append=psi[:, :1] + 2.0 * np.pi)
+    half = 0.5 * bearing.pitch_diameter
+    return np.asarray(half * (ahead - 2.0 * np.arcsin(0.5 * bearing.element_diameter / half)))
 
 
 def _about(ds: xarray.Dataset, about: str) -> np.ndarray:

@@ -38,6 +38,7 @@ if TYPE_CHECKING:
 
     Compute = Callable[[Mapping[str, np.ndarray], Bearing], np.ndarray]
 
+NEIGHBOURS = "neighbour_force"
 TIME = "time"
 TIME_HF = "time_hf"
 
@@ -70,7 +71,8 @@ class Variable:
 
     ``dtype`` is its type in datasets. On disk it has ``bits`` significant bits of the largest of
     each group of values: those along its last ``together`` dimensions, or each alone. Most values
-    of a ``sparse`` one are zero: then zeros stand together, else the values of one place.
+    of a ``sparse`` one are zero: then zeros stand together, else the values of one place. Runs
+    without a cage have none that is ``of_cage``.
     """
 
     name: str
@@ -81,6 +83,7 @@ class Variable:
     bits: int = 53
     together: int = 0
     sparse: bool = False
+    of_cage: bool = False
 
     @property
     def stored(self) -> str:
@@ -140,17 +143,18 @@ def rounded_loads(table: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
 
 def sampled(
     name: str, unit: str, long_name: str, *dims: str, bits: int = 24, together: int = 0,
-    sparse: bool = False, dtype: str = "float64",
+    sparse: bool = False, dtype: str = "float64", of_cage: bool = False,
 ) -> Variable:  # fmt: skip
     """A variable on the main grid, in single precision on disk if nothing else is said."""
-    return Variable(name, (TIME, *dims), unit, long_name, dtype, bits, together, sparse)
+    return Variable(name, (TIME, *dims), unit, long_name, dtype, bits, together, sparse, of_cage)
 
 
 def _common() -> Iterator[Variable]:
     """What every run records."""
     whole: Any = {"bits": 53}
-    face: Any = {"dtype": "float32"}
-    modal: Any = {"bits": MODAL_BITS, "together": 1}
+    cage: Any = {"of_cage": True}
+    face: Any = {"dtype": "float32", **cage}
+    modal: Any = {"bits": MODAL_BITS, "together": 1, **cage}
     yield sampled("inner_position", "m", "inner ring centre, ring frame", "axis")
     yield sampled("inner_velocity", "m/s", "velocity of the inner ring centre, ring frame", "axis")
     yield sampled("inner_angle", "rad", "angle turned by the inner ring", **whole)
@@ -160,6 +164,18 @@ def _common() -> Iterator[Variable]:
     )
     yield sampled("outer_position", "m", "outer ring centre, ring frame", "axis")
     yield sampled("outer_velocity", "m/s", "velocity of the outer ring centre, ring frame", "axis")
+    yield sampled(
+        "outer_quaternion", "1", "orientation of the outer ring", "quaternion", together=1
+    )
+    yield sampled(
+        "outer_force", "N", "force of all contacts on the outer ring, ring frame: what it hands on "
+        "to its mount, but for its weight and inertia",
+        "axis",
+    )  # fmt: skip
+    yield sampled(
+        "outer_moment", "N m", "moment of these forces about the outer ring's centre", "axis",
+        bits=MODAL_BITS, together=1,
+    )  # fmt: skip
     yield sampled(
         "element_position", "m, m, rad", "centre of a rolling element (x, r, psi)",
         "element", "cyl", bits=38,  # psi grows
@@ -174,21 +190,21 @@ def _common() -> Iterator[Variable]:
         "at its azimuth",
         "element", "spin_axis",
     )  # fmt: skip
-    yield sampled("cage_position", "m", "cage centre, ring frame", "axis")
-    yield sampled("cage_velocity", "m/s", "velocity of the cage centre, ring frame", "axis")
+    yield sampled("cage_position", "m", "cage centre, ring frame", "axis", **cage)
+    yield sampled("cage_velocity", "m/s", "velocity of the cage centre, ring frame", "axis", **cage)
     yield sampled(
         "cage_quaternion", "1", "orientation of the cage, scalar first", "quaternion",
-        bits=53,
+        bits=53, **cage,
     )  # fmt: skip
     yield sampled(
-        "cage_omega", "rad/s", "angular velocity of the cage, cage frame", "axis", **whole
+        "cage_omega", "rad/s", "angular velocity of the cage, cage frame", "axis", **whole, **cage
     )
     yield sampled(
-        "cage_acceleration", "m/s^2", "acceleration of the cage centre, cage frame", "axis"
+        "cage_acceleration", "m/s^2", "acceleration of the cage centre, cage frame", "axis", **cage
     )
     yield sampled(
         "cage_angular_acceleration", "rad/s^2", "angular acceleration of the cage, cage frame",
-        "axis",
+        "axis", **cage,
     )  # fmt: skip
     yield sampled("modal_coordinates", "m kg^0.5", "modal coordinates of the cage", "mode", **modal)
     yield sampled("modal_velocity", "m kg^0.5/s", "modal velocities of the cage", "mode", **modal)
@@ -243,12 +259,17 @@ def _common() -> Iterator[Variable]:
         "station_force", "N", "force on the cage at a station of a pocket face (x, r, psi)",
         "pocket", "face", "station", "cyl", bits=FORCE_BITS, together=2, sparse=True, **face,
     )  # fmt: skip
-    yield sampled("land_force", "N", "force of lands and shoulders on the cage, ring frame", "axis")
+    yield sampled(
+        NEIGHBOURS, "N", "normal force of the next element, where two touch each other", "element"
+    )
+    yield sampled(
+        "land_force", "N", "force of lands and shoulders on the cage, ring frame", "axis", **cage
+    )
     yield sampled(
         "land_station_force", "N",
         "force of the guiding land on the cage at stations round it (r, psi); then of the other "
         "ring, where the cage may meet it",
-        "land_station", "polar", bits=FORCE_BITS, together=2,
+        "land_station", "polar", bits=FORCE_BITS, together=2, **cage,
     )  # fmt: skip
     yield sampled("multiplier", "N or N m", "constraint force or torque", "constraint")
     yield sampled("energy", "J", "energy stored", "energy_kind", **whole)

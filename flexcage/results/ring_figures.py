@@ -1,5 +1,5 @@
-"""Figures of the inner ring: what drives it, where the load puts it, what holds it; and of further
-constraints."""
+"""Figures of the inner ring: what drives it, where the load puts it, what holds it; of what the
+outer ring bears; and of further constraints."""
 
 from __future__ import annotations
 
@@ -66,6 +66,33 @@ def _reaction_rows(ds: xarray.Dataset, windows: Windows) -> tuple[Row, ...]:
         note = "what holds the ring" if force.any() else ""
         rows.append(statistic(f"reaction_{key}", windows.mean(force), note, idle=not force.any()))
     return tuple(rows)
+
+
+def outer_sections(ds: xarray.Dataset, windows: Windows) -> tuple[Section, ...]:
+    """Means of what contacts press the outer ring with, and of how far its mount yields; none of a
+    dataset without these forces."""
+    if "outer_force" not in ds:
+        return ()
+    force, moment = (
+        ds[name].transpose("axis", "time").values.astype(float)
+        for name in ("outer_force", "outer_moment")
+    )
+    y, z = ds["outer_position"].transpose("axis", "time").values[1:]
+    azimuth = np.degrees(np.arctan2(force[2].mean(), force[1].mean()))
+    lean = metrics.tilt(ds, body="outer").sel(component="total").values
+    rows = (
+        statistic(
+            "outer_force_radial", windows.mean(np.hypot(force[1], force[2])),
+            f"on average towards {azimuth:.1f} deg from y to z",
+        ),
+        statistic("outer_force_axial", windows.mean(force[0])),
+        statistic("outer_moment", windows.mean(np.hypot(moment[1], moment[2]))),
+        figure(
+            "outer_displacement", float(np.hypot(y.mean(), z.mean())), idle=not (y.any() or z.any())
+        ),
+        statistic("outer_tilt", windows.mean(lean), idle=not lean.any()),
+    )  # fmt: skip
+    return (section_of(rows),)
 
 
 def constraint_sections(ds: xarray.Dataset, windows: Windows) -> tuple[Section, ...]:

@@ -19,6 +19,7 @@ from flexcage.results import metrics
 from flexcage.results.evenly import FEWEST, grid_of, series
 from flexcage.results.known import KNOWN
 from flexcage.results.metrics import BearingNumbers
+from flexcage.results.registry import NEIGHBOURS
 
 if TYPE_CHECKING:
     import xarray
@@ -62,8 +63,11 @@ class Signal:
     of: Callable[[xarray.Dataset], xarray.DataArray | None]
 
 
-def _cage_centre(ds: xarray.Dataset) -> xarray.DataArray:
+def _cage_centre(ds: xarray.Dataset) -> xarray.DataArray | None:
     import xarray as xr
+
+    if not metrics.caged(ds):
+        return None
 
     return xr.DataArray(
         metrics.orbit(ds), dims=("time", "axis2"),
@@ -71,11 +75,23 @@ def _cage_centre(ds: xarray.Dataset) -> xarray.DataArray:
     )  # fmt: skip
 
 
-def _cage_speed(ds: xarray.Dataset) -> xarray.DataArray:
-    return ds["cage_omega"].sel(axis="x", drop=True)
+def _cage_speed(ds: xarray.Dataset) -> xarray.DataArray | None:
+    return metrics.carrier_speed(ds) if metrics.caged(ds) else None
 
 
-def _pocket_forces(ds: xarray.Dataset) -> xarray.DataArray:
+def _orbital_speed(ds: xarray.Dataset) -> xarray.DataArray | None:
+    return None if metrics.caged(ds) else metrics.carrier_speed(ds)
+
+
+def _neighbour_forces(ds: xarray.Dataset) -> xarray.DataArray | None:
+    if metrics.caged(ds):
+        return None
+    return ds[NEIGHBOURS].astype(float).sum("element").assign_attrs(units="N")
+
+
+def _pocket_forces(ds: xarray.Dataset) -> xarray.DataArray | None:
+    if not metrics.caged(ds):
+        return None
     return ds["pocket_force"].astype(float).sum(("pocket", "face")).assign_attrs(units="N")
 
 
@@ -96,6 +112,8 @@ SIGNALS: Mapping[str, Signal] = MappingProxyType(
         "cage_centre": Signal("Cage centre, from the outer ring's", _cage_centre),
         "cage_speed": Signal(KNOWN["cage_speed"].title, _cage_speed),
         "pocket_forces": Signal("Sum of the pocket forces", _pocket_forces),
+        "orbital_speed": Signal("Mean orbital speed of the elements", _orbital_speed),
+        "neighbour_forces": Signal("Sum of the forces between neighbours", _neighbour_forces),
         "outer_acceleration": Signal("Acceleration of the outer ring", _outer_ring),
         "outer_envelope": Signal(
             f"Envelope of it, {BAND[0] / 1e3:g} to {BAND[1] / 1e3:g} kHz", _outer_envelope
@@ -117,7 +135,7 @@ def own_frequencies(ds: xarray.Dataset, bearing: BearingNumbers) -> dict[str, fl
     """The same frequencies [Hz] by name as the run's own mean speeds have them, slip included: of
     the cage, the inner ring, and the elements about their own axes relative to the cage. The outer
     ring stands."""
-    cage, inner = float(_cage_speed(ds).mean()), float(ds["inner_speed"].mean())
+    cage, inner = float(metrics.carrier_speed(ds).mean()), float(ds["inner_speed"].mean())
     spin = abs(float(metrics.element_spin(ds).mean()))
     speeds = {
         "FTF": abs(cage),

@@ -122,6 +122,6 @@ class Windows:
 def element_passes(ds: xarray.Dataset, bearing: BearingNumbers) -> Windows:
     """Windows of a (settled) run; a cage that stands still gives one window, and no margins."""
     n = ds.sizes["time"]
-    passes = abs(np.ptp(metrics.cage_angle(ds))) * bearing.element_count / (2.0 * np.pi)
+    passes = abs(np.ptp(metrics.carrier_angle(ds))) * bearing.element_count / (2.0 * np.pi)
     count = int(np.clip(round(passes), 1, n))
     return Windows(n, np.arange(count) * n // count, bearing.element_count)

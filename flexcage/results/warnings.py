@@ -51,7 +51,7 @@ Facts = TypeVar("Facts")
 
 @dataclass(frozen=True, kw_only=True)
 class Setup:
-    """What is known when a run begins."""
+    """What is known of a cage when a run begins."""
 
     bearing: Bearing
     cage: Cage
@@ -62,7 +62,6 @@ class Setup:
     attached: bool = True  # does a pocket yield by more than the modes?
     pinched: tuple[int, ...] = ()  # pockets that hold their element with force
     pinch_force: float = 0.0  # N, the largest
-    statics: tuple[str, ...] = ()  # warnings of the static solution that the run begins with
     fit: BodyFit | None = None  # of a cage that was reduced elsewhere
     highest: float = 0.0  # Hz, of the dynamic modes
 
@@ -74,7 +73,7 @@ class Outcome:
     summary: Summary
     dataset: xarray.Dataset
     bearing: Bearing
-    cage: Cage
+    cage: Cage | None
     land: LandSpec
     duration: float  # s that it should last
     settle: float  # share of the run that statistics leave out
@@ -85,6 +84,12 @@ class Outcome:
     @property
     def element(self) -> str:
         return self.bearing.element
+
+    @property
+    def its_cage(self) -> Cage:
+        """The cage, for those that look at one."""
+        assert self.cage is not None
+        return self.cage
 
     def number(self, key: str) -> float:
         """A figure of the summary, or NaN where it has none."""
@@ -134,9 +139,9 @@ def _pinched(setup: Setup) -> Iterator[RunWarning]:
         )
 
 
-def _statics(setup: Setup) -> Iterator[RunWarning]:
-    for text in setup.statics:
-        yield RunWarning("static", f"At the start {text}")
+def of_statics(texts: Iterable[str]) -> tuple[RunWarning, ...]:
+    """What the static solution warns of that a run begins with."""
+    return tuple(RunWarning("static", f"At the start {text}") for text in texts)
 
 
 def _sharp_corners(setup: Setup) -> Iterator[RunWarning]:
@@ -232,11 +237,10 @@ def has_land(cage: Cage, land: LandSpec) -> bool:
     return land.kind != "none" and cage.has_land
 
 
-#: What is looked at when a run begins.
+#: What is looked at of a cage when a run begins.
 AT_START: tuple[Callable[[Setup], Iterator[RunWarning]], ...] = (
     _odd_geometry,
     _pinched,
-    _statics,
     _sharp_corners,
     _no_residual_flexibility,
     _body_too_stiff,
@@ -262,7 +266,7 @@ def _unfinished(o: Outcome) -> Iterator[RunWarning]:
 
 def _yield(o: Outcome) -> Iterator[RunWarning]:
     known = [v for v in (o.number("stress_peak"), o.number("stress_start")) if isfinite(v)]
-    peak, material = max(known, default=0.0), o.cage.material
+    peak, material = max(known, default=0.0), o.its_cage.material
     if peak > material.proof_stress:
         yield RunWarning(
             "stress_above_proof",
@@ -293,14 +297,14 @@ def _overloaded(o: Outcome) -> Iterator[RunWarning]:
 def _thrown_off(o: Outcome) -> Iterator[RunWarning]:
     # A land ends the growth of a whirl, also of one that rotation has made larger: no later failure
     # is to be told. How far the cage swings and how hard it strikes are figures of the summary.
-    if has_land(o.cage, o.land) or any(_stops(o)):
+    if has_land(o.its_cage, o.land) or any(_stops(o)):
         return
     part = metrics.settled(o.dataset, o.settle)
     radius = metrics.whirl_radius(part, about="axis")
     if len(radius) < 2 * _PARTS:
         return
     means = np.array([values.mean() for values in np.array_split(radius, _PARTS)])
-    play = 0.5 * (o.cage.pocket_size - o.bearing.element_diameter)
+    play = 0.5 * (o.its_cage.pocket_size - o.bearing.element_diameter)
     allowed = _BEYOND_POCKETS * play
     if (np.diff(means) > 0.0).all() and means[-1] > max(_GROWN * means[0], allowed):
         begin, end = (float(part["time"][k]) * 1e3 for k in (0, -1))
@@ -315,11 +319,11 @@ def _thrown_off(o: Outcome) -> Iterator[RunWarning]:
 
 def _stops(o: Outcome) -> tuple[RingLand | None, RingLand | None]:
     """Where a run computes the contact of the cage with rings that do not guide it."""
-    return (None, None) if o.land.kind == "none" else o.bearing.stops(o.cage)
+    return (None, None) if o.land.kind == "none" else o.bearing.stops(o.its_cage)
 
 
 def _passes_ring(o: Outcome) -> Iterator[RunWarning]:
-    ds, cage = o.dataset, o.cage
+    ds, cage = o.dataset, o.its_cage
     tilt = metrics.tilt(ds).sel(component="total").values
     guided = has_land(cage, o.land) and cage.land_ring
     for side, limit, stop in zip(("inner", "outer"), o.bearing.cage_space(cage), _stops(o)):
@@ -355,17 +359,17 @@ def _short(o: Outcome) -> Iterator[RunWarning]:
     if "short_run" in o.said:
         return
     part = metrics.settled(o.dataset, o.settle)
-    turns = abs(float(np.ptp(metrics.cage_angle(part)))) / (2.0 * np.pi)
+    turns = abs(float(np.ptp(metrics.carrier_angle(part)))) / (2.0 * np.pi)
     passes = o.number("roller_passes")
-    stands = not np.any(part["inner_speed"].values)
+    stands, carrier = not np.any(part["inner_speed"].values), metrics.carrier(part)
     few = [f"intervals need {FEWEST} passes"] if passes < FEWEST else []
     if turns < LEAST_TURNS and not stands:
-        few.append("means need at least one turn of the cage")
+        few.append(f"means need at least one turn of the {carrier}")
     if few:
         yield RunWarning(
             "short_run",
             f"Statistics rest on {passes:.0f} {o.element} passes and {turns:.2g} turns of the "
-            f"cage, but {' and '.join(few)}; give a longer solver.duration.",
+            f"{carrier}, but {' and '.join(few)}; give a longer solver.duration.",
         )
 
 
@@ -416,8 +420,9 @@ def _large_rotation(o: Outcome) -> Iterator[RunWarning]:
 
 
 def _grown_into_ring(o: Outcome) -> Iterator[RunWarning]:
-    guided = o.cage.land_ring if has_land(o.cage, o.land) else ""
-    yield from grown_into_ring(o.shape, o.cage, o.bearing.cage_space(o.cage), guided)
+    cage = o.its_cage
+    guided = cage.land_ring if has_land(cage, o.land) else ""
+    yield from grown_into_ring(o.shape, cage, o.bearing.cage_space(cage), guided)
 
 
 def _elements_touch(o: Outcome) -> Iterator[RunWarning]:
@@ -450,3 +455,8 @@ AT_END: tuple[Callable[[Outcome], Iterator[RunWarning]], ...] = (
     _over_edge,
     _elements_touch,
 )
+_OF_CAGE = (
+    _yield, _thrown_off, _passes_ring, _large_rotation, _grown_into_ring, _elements_touch
+)  # fmt: skip
+#: The same without a cage.
+CAGELESS_AT_END = tuple(check for check in AT_END if check not in _OF_CAGE)

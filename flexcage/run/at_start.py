@@ -13,7 +13,7 @@ from flexcage.core.threads import one_blas_thread
 from flexcage.core.warning import RunWarning
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.reduction import CageReduction
-from flexcage.results.warnings import AT_START, Setup, warnings_of
+from flexcage.results.warnings import AT_START, Setup, of_statics, warnings_of
 from flexcage.stress.operators import von_mises
 from flexcage.stress.recovery import CageLoads
 from flexcage.stress.run_stress import recovery_of
@@ -23,14 +23,26 @@ log = logging.getLogger(__name__)
 
 
 def warnings_at_start(
-    case: Case, mesh: CageMesh, cage: CageReduction | None, start: Start
+    case: Case, mesh: CageMesh | None, cage: CageReduction | None, start: Start
 ) -> tuple[RunWarning, ...]:
     """What must be known of a run before it begins, beside what its case alone tells
     (``foreseen``), logged too; InputError for a cage that its assembly alone stresses more than the
     case allows."""
+    found = (
+        *(_of_cage(case, mesh, cage, start) if mesh is not None else ()),
+        *of_statics(start.warnings),
+    )
+    for warning in found:
+        log.warning(warning.text)
+    return found
+
+
+def _of_cage(
+    case: Case, mesh: CageMesh, cage: CageReduction | None, start: Start
+) -> tuple[RunWarning, ...]:
     setup = Setup(
         bearing=case.bearing,
-        cage=case.cage,
+        cage=case.its_cage,
         land=case.land,
         mesh=mesh,
         flexible=cage is not None,
@@ -38,25 +50,21 @@ def warnings_at_start(
         attached=cage is None or bool(np.any(getattr(cage.interface, "compliance", True))),
         pinched=start.pinched,
         pinch_force=start.pinch_force,
-        statics=start.warnings,
         fit=None if cage is None else cage.fit,
         highest=0.0 if cage is None else float(cage.table.frequency.max()),
     )
-    found = (*warnings_of(AT_START, setup), *_assembly_stress(case, cage, start))
-    for warning in found:
-        log.warning(warning.text)
-    return found
+    return (*warnings_of(AT_START, setup), *_assembly_stress(case, cage, start))
 
 
 @one_blas_thread
 def _assembly_stress(case: Case, cage: CageReduction | None, start: Start) -> list[RunWarning]:
     if cage is None or not start.pinched:
         return []
-    recovery = recovery_of(cage, cage_type_of(case.cage).places())
+    recovery = recovery_of(cage, cage_type_of(case.its_cage).places())
     loads = CageLoads(station_forces=start.station)
     stress = von_mises(recovery.stress(recovery.displacement(loads), loads))
     stress[recovery.contact_zone] = 0.0
-    peak, material = float(stress.max()), case.cage.material
+    peak, material = float(stress.max()), case.its_cage.material
     text = f"Assembling the bearing stresses the cage to {peak / 1e6:.0f} MPa"
     limit = case.limits.stress
     if limit is not None and peak > limit:

@@ -131,9 +131,9 @@ class _Sizes:
 
     def of_interface(self, arrays: Arrays, case: Case) -> None:
         """The interface of the case's cage: that of a rigid one, with modes and nodes."""
-        made = cage_type_of(case.cage).interfaces()
+        made = cage_type_of(case.its_cage).interfaces()
         rigid: Any = made.rigid(
-            case.cage, pocket_count=self.known["pocket"], defects=case.all_defects
+            case.its_cage, pocket_count=self.known["pocket"], defects=case.all_defects
         )
         names = set()
         for field in fields(rigid):
@@ -150,7 +150,7 @@ class _Sizes:
                     self.path, f"interface.{name} has {columns} nodes, not {self.known['node']}"
                 )
         over = set(arrays) - names - set(sparse)
-        if over and not source_of(case.cage.cage_type):
+        if over and not source_of(case.its_cage.cage_type):
             raise _another(self.path, f"it has interface.{min(over)}, which such a cage has not")
 
 

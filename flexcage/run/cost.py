@@ -155,8 +155,9 @@ def note_pace(case: Case, seconds: float, solved: float) -> None:
 def _kind(case: Case) -> str:
     """Names what decides about the pace most."""
     return content_hash(
-        case.bearing.type, case.cage.cage_type, case.cage_model, case.rings_bend,
-        case.solver.method, case.solver.tolerance, case.modes.kind, round(case.speed),
+        case.bearing.type, case.cage.cage_type if case.cage else "", case.cage_model,
+        case.rings_bend, case.solver.method, case.solver.tolerance, case.modes.kind,
+        round(case.speed),
     )  # fmt: skip
 
 

@@ -23,7 +23,7 @@ def elastic_shape(run: RunRecord) -> ElasticShape:
         return ElasticShape()
     modal = run.dataset["modal_coordinates"].values
     stations = cage.interface.modes.reshape(-1, modal.shape[1])
-    if np.abs(stations).max(axis=0) @ np.abs(modal).max(axis=0) < _HARDLY * run.case.cage.width:
+    if np.abs(stations).max(axis=0) @ np.abs(modal).max(axis=0) < _HARDLY * run.case.its_cage.width:
         return ElasticShape(stiffened=stiffened)
     count, shapes = cage.mesh.pocket_count, cage.shown.shapes
     turned = cage.once("rotations", lambda: sector_rotations(cage.model, shapes, count))

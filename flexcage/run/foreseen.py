@@ -38,11 +38,12 @@ _told: ContextVar[bool] = ContextVar("told", default=False)
 def foreseen(case: Case, *, stress: bool = True) -> tuple[RunWarning, ...]:
     """What a case alone tells of its run's figures; ``stress``: is the cage's to be computed?"""
     said = [("not_reached", text) for text in not_reached(case)]
-    said += [("land_clearance", text) for text in land_beside_shoulder(case)]
     said += [("not_used", text) for text in not_used(case)]
     said += odd_values(case)
-    if text := beyond_service(case.cage.material, case.cage.temperature):
-        said.append(("cage_temperature", text))
+    if case.cage is not None:
+        said += [("land_clearance", text) for text in land_beside_shoulder(case)]
+        if text := beyond_service(case.cage.material, case.cage.temperature):
+            said.append(("cage_temperature", text))
     found = [*(RunWarning(*each) for each in said), *_short(case), *_fast(case)]
     return (*found, *(_coarse(case) if stress else ()))
 
@@ -94,6 +95,7 @@ def tell(cases: Iterable[Case], *, stress: bool = True) -> None:
 
 def _short(case: Case) -> Iterator[RunWarning]:
     """Too few turns of the cage, or passes of its elements, by the epicyclic speed."""
+    carrier = "cage" if case.cage else f"{case.bearing.element}s"
     count, settle = case.bearing.element_count, case.output.settle
     wanted = max(LEAST_TURNS, FEWEST / count)
     duration = case.solver.duration
@@ -102,7 +104,7 @@ def _short(case: Case) -> Iterator[RunWarning]:
         return
     few = []
     if turns < LEAST_TURNS:
-        few.append(f"{turns:.2g} turns of the cage (means need {LEAST_TURNS:g})")
+        few.append(f"{turns:.2g} turns of the {carrier} (means need {LEAST_TURNS:g})")
     if turns * count < FEWEST:
         passes = round(turns * count)
         word = f"{case.bearing.element} pass{'' if passes == 1 else 'es'}"
@@ -151,7 +153,7 @@ def _fast(case: Case) -> Iterator[RunWarning]:
 def _coarse(case: Case) -> Iterator[RunWarning]:
     """A mesh for motion whose stress is read; how wrong it is: tests/README.md, an N1013's."""
     mesh = case.mesh
-    if case.cage_model == "rigid" or case.modes.body or mesh.file:
+    if case.cage_model != "flexible" or case.modes.body or mesh.file:
         return
     if mesh.fineness == "coarse" and mesh.size is None and mesh.fillet_size is None:
         yield RunWarning(

@@ -29,7 +29,9 @@ def picture_names_of(run: SummarisedRun) -> list[str]:
     """Names of the run's pictures."""
     part = settled(run.dataset, run.case.output.settle)
     names = album.picture_names(
-        flexible=run.cage is not None, resolved=spectra.resolves(part, run.numbers)
+        caged=run.case.cage is not None,
+        flexible=run.cage is not None,
+        resolved=spectra.resolves(part, run.numbers),
     )
     return [*names, *ring_pictures(run.case)]
 
@@ -57,19 +59,19 @@ def draw_pictures(
 def scene_of(run: SummarisedRun, *, animate: bool = False, stress: bool = True) -> Scene:
     """What pictures and reports show of the run; ``animate`` adds an animation's frames, and
     without ``stress`` that of a flexible cage is left out."""
-    case, load = run.case, run.case.load
+    case, load, cage = run.case, run.case.load, run.case.cage
     radial, axial = loads_over(load, run.dataset["time"].values).T
     return Scene(
         name=case.name,
         dataset=run.dataset,
         bearing=case.bearing,
-        mesh=run.mesh,
+        mesh=run.mesh if cage else None,
         defects=case.defects,
         loads=np.stack(
             [axial, radial * np.cos(load.direction), radial * np.sin(load.direction)], axis=1
         ),
-        clearance=case.land.clearance if case.bearing.land(case.cage) else None,
-        guide=case.cage.land_ring,
+        clearance=case.land.clearance if cage and case.bearing.land(cage) else None,
+        guide=cage.land_ring if cage else "",
         settle=case.output.settle,
         stress=_stress_pictures(run, animate) if stress and run.cage is not None else None,
     )

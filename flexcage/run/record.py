@@ -56,14 +56,14 @@ class RunRecord:
         case: Case,
         store: MemoryRunStore,
         folder: Path | None,
-        mesh: CageMesh,
+        mesh: CageMesh | None,
         cage: CageReduction | None,
         start: Start | None = None,
         stages: Stages | None = None,
         edited: tuple[RunWarning, ...] = (),
     ) -> None:
         self.case, self.store, self.folder = case, store, folder
-        self.mesh, self.cage, self.start = mesh, cage, start
+        self._mesh, self.cage, self.start = mesh, cage, start
         self.stages = stages if stages is not None else Stages()
         self.effort: Effort | None = None  # of the integration, if this process did it
         self.edited = edited  # a warning, if the folder's case.toml was changed after the run
@@ -74,6 +74,14 @@ class RunRecord:
     def _size(self) -> str:
         where = f" in {self.folder}" if self.folder else ""
         return f"{self.store.n_time:,} samples{where}"
+
+    @property
+    def mesh(self) -> CageMesh:
+        """The cage's mesh. Raises InputError where the bearing has no cage."""
+        if self._mesh is None:
+            self.case.its_cage  # noqa: B018  (says so)
+        assert self._mesh is not None
+        return self._mesh
 
     @cached_property
     def dataset(self) -> xarray.Dataset:
@@ -111,17 +119,18 @@ class RunRecord:
     @cached_property
     def cage_stress(self) -> RunStress:
         """Stress of the flexible cage over the run; InputError for a rigid one."""
+        used = self.case.its_cage
         if self.cage is None:
             raise InputError("a rigid cage has no stress; run the case with cage.model = flexible")
         return RunStress(
             cage=self.cage,
-            places=cage_type_of(self.case.cage).places(),
+            places=cage_type_of(used).places(),
             mesh=self.mesh,
             dataset=self.dataset,
             store=self.store,
             numbers=self.numbers,
             settle=self.case.output.settle,
-            inner_land=self.case.cage.land_ring == "inner",
+            inner_land=used.land_ring == "inner",
             stages=self.stages,
         )
 
@@ -133,6 +142,7 @@ class RunRecord:
     @cached_property
     def mode_table(self) -> ModeTable:
         """Number, kind, frequency and effective masses of the flexible cage's dynamic modes."""
+        self.case.its_cage  # noqa: B018  (says so where there is none)
         if self.cage is None:
             raise InputError("a rigid cage has no modes; run the case with cage.model = flexible")
         return self.cage.table
@@ -149,24 +159,24 @@ class RunRecord:
         Raises InputError for a rigid cage, a place that is not there, or a material without a
         published curve, and EnvironmentLacks without pyLife (the extra ``fatigue``).
         """
-        return self.cage_stress.fatigue(place, curve, material=self.case.cage.material.name)
+        return self.cage_stress.fatigue(place, curve, material=self.case.its_cage.material.name)
 
     def wear(self, law: WearLaw | None = None) -> Wear:
         """Rates of wear of pockets and land over the settled part by Archard's law; by default
         with the dry coefficient of the cage's material. InputError for a material without one."""
         case = self.case
-        used = wear_law(case.cage.material.name) if law is None else law
+        used = wear_law(case.its_cage.material.name) if law is None else law
         expect(used, WearLaw, "law")
         check_spec(used, "law")
         ds = settled(self.dataset, case.output.settle)
         windows = element_passes(ds, self.numbers)
-        return wear(ds, case.bearing, case.cage, case.land, used, windows)
+        return wear(ds, case.bearing, case.its_cage, case.land, used, windows)
 
     @cached_property
     def rivets(self) -> Rivets:
         """What the rivets of a riveted cage bear (``stress.rivets.Rivets``): ``dataset`` and
         ``table``; InputError for any other cage, and for a rigid one."""
-        stress, cage = self.cage_stress, self.case.cage  # refuses a rigid cage
+        stress, cage = self.cage_stress, self.case.its_cage  # refuses a rigid cage
         if not cage.riveted:
             riveted, chosen = riveted_cages()
             raise InputError(
@@ -190,7 +200,7 @@ class RunRecord:
 
         rivets, case = self.rivets, self.case
         root = _si(root_radius, "mm", "root_radius")
-        cage, bearing = case.cage, case.bearing
+        cage, bearing = case.its_cage, case.bearing
         return self.stages(
             "rivet_joint", fits_of, rivets,
             cage.rivet_joint(bearing.pitch_diameter, bearing.element_count, root),

@@ -19,6 +19,8 @@ from flexcage.core.sources import physics
 from flexcage.core.timing import Stages
 from flexcage.core.warning import RunWarning
 from flexcage.integrate.recorded import new_store
+from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.modes.reduction import CageReduction
 from flexcage.results.cage_file import (
     FORMAT,
     CageFile,
@@ -53,9 +55,11 @@ def run_store(
     if folder is not None:
         check_links(folder)
         write_case(folder, case)
-        file = _cage_file(case, cage)
-        keep_cage(folder, file, study=study)
-        attrs["cage"] = file.digest
+        mesh, reduction = cage
+        if mesh is not None:
+            file = _cage_file(case, mesh, reduction)
+            keep_cage(folder, file, study=study)
+            attrs["cage"] = file.digest
     return new_store(
         folder and folder / "results.zarr",
         bearing,
@@ -72,6 +76,8 @@ def stored_cage(case: Case, store: MemoryRunStore, folder: Path, stages: Stages)
     A run that did not keep it (``output.keep_cage``) gets it made anew; InputError if that is
     another one.
     """
+    if case.cage is None:
+        return None, None
     record = stages.named("cage", kept_cage, folder, store)
     modes = store.layout.coords.get("mode", ((), ()))[1]
     check_sizes(record, case, len(modes), find_cage(folder, record.digest))
@@ -93,9 +99,8 @@ def stored_cage(case: Case, store: MemoryRunStore, folder: Path, stages: Stages)
     return record.mesh, cage
 
 
-def _cage_file(case: Case, cage: Cage) -> CageFile:
+def _cage_file(case: Case, mesh: CageMesh, reduction: CageReduction | None) -> CageFile:
     """What a run's folder keeps of its cage. That of a flexible cage is packed once."""
-    mesh, reduction = cage
     if reduction is None:
         return cage_file(cage_record(mesh, {}))
     large = case.output.keep_cage

@@ -15,7 +15,7 @@ from flexcage.results.film import film_rows
 from flexcage.results.known import KNOWN, RARE
 from flexcage.results.metrics import SlipRange, settled
 from flexcage.results.summary import Row, Summary, figure
-from flexcage.results.warnings import AT_END, Outcome, from_attrs, warnings_of
+from flexcage.results.warnings import AT_END, CAGELESS_AT_END, Outcome, from_attrs, warnings_of
 from flexcage.run.elastic import elastic_shape
 from flexcage.run.folder import seam_warnings
 from flexcage.solve.contract import Effort
@@ -52,9 +52,10 @@ def summary_of(run: RunRecord, *, stress: bool = True) -> Summary:
         _cage_rows(run),
     ):
         summary = summary.with_figures(rows)
-    proof = case.cage.material.proof_stress
-    if run.cage is not None and (stress or run.cage_stress.may_exceed(proof)):
-        summary = with_stress(summary, run)
+    if run.cage is not None:
+        proof = case.its_cage.material.proof_stress
+        if stress or run.cage_stress.may_exceed(proof):
+            summary = with_stress(summary, run)
     if run.effort is not None:
         summary = summary.with_figures(_solver_rows(run.effort))
     return warned(timed(summary, run), run)
@@ -84,7 +85,8 @@ def warned(summary: Summary, run: RunRecord) -> Summary:
         shape=elastic_shape(run),
         said=frozenset(warning.key for warning in known),
     )
-    return dataclasses.replace(summary, warnings=(*known, *warnings_of(AT_END, outcome)))
+    looked = CAGELESS_AT_END if case.cage is None else AT_END
+    return dataclasses.replace(summary, warnings=(*known, *warnings_of(looked, outcome)))
 
 
 def timed(summary: Summary, run: RunRecord) -> Summary:
@@ -96,6 +98,8 @@ def timed(summary: Summary, run: RunRecord) -> Summary:
 
 def _cage_rows(run: RunRecord) -> list[Row]:
     cage, start = run.case.cage, run.start
+    if cage is None:
+        return []
     report = report_mesh(run.mesh, density=cage.material.density)
     mass, centre, note = report.volume * cage.material.density, report.mass_centre, ""
     if cage.unbalance:

@@ -17,7 +17,7 @@ from flexcage.core.timing import Stages
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.reduction import CageReduction
 from flexcage.results.figures import pass_peak
-from flexcage.results.metrics import BearingNumbers, cage_angle, settled
+from flexcage.results.metrics import BearingNumbers, carrier_angle, settled
 from flexcage.results.statistics import element_passes
 from flexcage.results.store import MemoryRunStore
 from flexcage.results.summary import Row, figure, statistic
@@ -175,7 +175,7 @@ class RunStress:
             counted = counted_stress(tensors, used.mean_stress_sensitivity)
             stresses[name] = (int(fields.vertices[fields.places[name][counted.point]]), counted)
         windows, t = element_passes(ds, self.numbers), ds["time"].values
-        turns = abs(float(np.ptp(cage_angle(ds)))) / (2.0 * np.pi)
+        turns = abs(float(np.ptp(carrier_angle(ds)))) / (2.0 * np.pi)
         time = float(t[-1] - t[0])
         turn = time / turns if turns else float("nan")
         step = time / (len(t) - 1)

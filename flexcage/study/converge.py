@@ -116,6 +116,8 @@ def levels(case: Case, axes: Sequence[str] = ()) -> list[Level]:
 
 def _unfit(case: Case, axis: str) -> str:
     """Why a case cannot vary along an axis; nothing if it can."""
+    if axis in ("modes", "mesh") and case.cage is None:
+        return "The bearing has no cage"
     if axis in ("modes", "mesh") and case.cage_model == "rigid":
         return "The cage is rigid"
     if axis in ("modes", "mesh") and case.modes.body:

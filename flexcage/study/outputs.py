@@ -15,12 +15,24 @@ from flexcage.cages import riveted_cages
 from flexcage.core.binding import did_you_mean
 from flexcage.core.errors import InputError
 from flexcage.core.wings import FAMILIES
-from flexcage.results.known import FATIGUE, FLEXIBLE, KNOWN, LATER, RIVETED, SIGNED, TEXT, WEAR
-from flexcage.results.metrics import cage_angle, settled, whole_revolutions
+from flexcage.results.known import (
+    CAGED,
+    FATIGUE,
+    FLEXIBLE,
+    FULL,
+    KNOWN,
+    LATER,
+    RIVETED,
+    SIGNED,
+    TEXT,
+    WEAR,
+)
+from flexcage.results.metrics import carrier_angle, settled, whole_revolutions
 from flexcage.results.reductions import DERIVED, REDUCTIONS
 from flexcage.results.registry import (
     ENERGIES,
     LABELS,
+    NEIGHBOURS,
     TIME,
     VARIABLES,
     Variable,
@@ -111,7 +123,7 @@ class Reduction:
         if reducer.record is not None and dim == TIME:
             half = reducer.record(element_passes(part, run.numbers), values).margin
         elif reducer.by_turns:
-            turns = round(abs(float(np.ptp(cage_angle(part)))) / (2.0 * pi))
+            turns = round(abs(float(np.ptp(carrier_angle(part)))) / (2.0 * pi))
             half = reducer.margin_by_turns(values, step, turns)
         value = reducer.over_turns(values, step, turns)
         return Figure(value, unit, "", half if isfinite(half) else None)
@@ -210,9 +222,26 @@ def needs_stress(names: tuple[str, ...]) -> bool:
 
 def lacking(beyond: tuple[str, ...], figures: Collection[str]) -> tuple[str, ...]:
     """Outputs beyond a summary that a case's figures do not hold and its cage can give: a rigid
-    one, which has no modes, gives none that needs a flexible one."""
-    rigid = "mode_count" not in figures
-    return tuple(n for n in beyond if n not in figures and not (rigid and _needs_flexible(n)))
+    one, which has no modes, gives none that needs a flexible one, and no cage none of a cage."""
+    rigid, caged = "mode_count" not in figures, "cage_mass" in figures
+    apart = "element_touches" not in figures  # may elements touch?
+    return tuple(
+        n for n in beyond
+        if n not in figures
+        and not (rigid and _needs_flexible(n))
+        and not (not caged and _needs_cage(n))
+        and not (apart and _of_neighbours(n))
+    )  # fmt: skip
+
+
+def _needs_cage(name: str) -> bool:
+    if is_reduction(name):
+        return parse_reduction(name).variable.of_cage
+    return name in KNOWN and KNOWN[name].needs in (CAGED, FLEXIBLE, RIVETED, FATIGUE, WEAR)
+
+
+def _of_neighbours(name: str) -> bool:
+    return is_reduction(name) and parse_reduction(name).variable.name == NEIGHBOURS
 
 
 def _needs_flexible(name: str) -> bool:
@@ -292,16 +321,18 @@ OF_RINGS = {
 
 def check_outputs(
     names: tuple[str, ...], *, family: str, sizes: Mapping[str, int], flexible: bool,
-    riveted: bool = False, materials: Collection[str] = (),
+    riveted: bool = False, caged: bool = True, uncaged: bool = False,
+    materials: Collection[str] = (),
     reactions: Collection[str] = CONSTRAINTS, rings: Collection[str] = (),
 ) -> None:  # fmt: skip
     """Raise InputError for the first output that no run of the study can give.
 
     ``sizes`` holds the least length in any case of dimensions that are counted (rolling elements,
-    pockets, slices), ``family`` is that of the bearings, ``flexible`` says whether any
-    cage is, ``riveted`` whether one of these is riveted, ``materials`` names those of all
-    cages, ``reactions`` the constraints that every case has, and ``rings`` those of the
-    dimensions ``OF_RINGS`` that any case has. Raises EnvironmentLacks for fatigue without pyLife.
+    pockets, slices), ``family`` is that of the bearings, ``flexible`` says whether any cage is,
+    ``riveted`` whether one of these is riveted, ``caged`` and ``uncaged`` whether any case has a
+    cage, and whether any has none, ``materials`` names those of all cages, ``reactions`` the
+    constraints that every case has, and ``rings`` those of the dimensions ``OF_RINGS`` that any
+    case has. Raises EnvironmentLacks for fatigue without pyLife.
     """
     if not names:
         raise InputError("The study has no outputs; name some, such as 'cage_speed'.")
@@ -335,6 +366,7 @@ def check_outputs(
             if name in KNOWN:
                 _check_late(name, materials)
                 _check_family(name, KNOWN.owners(name), family)
+        _check_cages(name, caged=caged, uncaged=uncaged)
         if needs and not flexible:
             raise InputError(
                 f"Output '{name}' needs a flexible cage, but every cage of the study is rigid; "
@@ -350,6 +382,23 @@ def check_outputs(
                 where="outputs",
                 value=name,
             )
+
+
+def _check_cages(name: str, *, caged: bool, uncaged: bool) -> None:
+    """Refuse an output of a cage where no case has one, and of none where every case has one."""
+    if not caged and _needs_cage(name):
+        raise InputError(
+            f"Output '{name}' is of a cage, but no case of the study has one; leave it out.",
+            where="outputs",
+            value=name,
+        )
+    if not uncaged and name in KNOWN and KNOWN[name].needs == FULL:
+        raise InputError(
+            f"Output '{name}' is of a full complement, but every case of the study has a cage; set "
+            "cage.model = 'none' or leave it out.",
+            where="outputs",
+            value=name,
+        )
 
 
 def _families(variable: str) -> tuple[str, ...]:

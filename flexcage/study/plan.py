@@ -59,7 +59,8 @@ def make_plan(study: Study) -> Plan:
     _check_columns(study)
     points = points_of(study.axes)
     cases, seen = [], dict[str, int]()
-    family, flexible, riveted = study.case.bearing.family, False, False
+    family = study.case.bearing.family
+    flexible = riveted = caged = uncaged = False
     sizes = _counts(study.case)
     materials, held = dict[str, None](), set(names_of(study.case.constraints))
     rings = set[str]()
@@ -81,14 +82,18 @@ def make_plan(study: Study) -> Plan:
             seen[case.hash] = number
             sizes = {dim: min(size, sizes[dim]) for dim, size in _counts(case).items()}
             flexible |= case.cage_model == "flexible"
+            caged |= case.cage is not None
+            uncaged |= case.cage is None
             riveted |= case.riveted
             rings |= _of_rings(case)
-            materials[case.cage.material.name] = None
+            if case.cage is not None:
+                materials[case.cage.material.name] = None
             held = held.intersection(names_of(case.constraints))
             cases.append(Planned(number, point, repetition, case.hash, _modes_key(case)))
     check_outputs(
         study.outputs, sizes=sizes, flexible=flexible, riveted=riveted, family=family,
-        materials=materials, reactions=(*CONSTRAINTS, *sorted(held)), rings=rings,
+        caged=caged, uncaged=uncaged, materials=materials,
+        reactions=(*CONSTRAINTS, *sorted(held)), rings=rings,
     )  # fmt: skip
     return Plan(study, tuple(cases))
 

@@ -12,6 +12,7 @@ from flexcage.contacts.land import KINDS, NONE, LandData
 from flexcage.contacts.ring_waves import no_waves
 from flexcage.contacts.spec import LandSpec, Lubricant
 from flexcage.geometry.bearing import Bearing, RingLand
+from flexcage.geometry.cage import Cage
 from flexcage.geometry.materials import Material
 from flexcage.system import time_functions
 from flexcage.system.data import Bodies, RingBody
@@ -174,7 +175,7 @@ def land_on_stop(
 
 
 def bodies_of(
-    bearing, cage, lubricant: Lubricant, drive: Drive, load: Load,
+    bearing, cage: Cage | None, lubricant: Lubricant, drive: Drive, load: Load,
     *, element: np.ndarray, radius: np.ndarray, area: float,
 ) -> Bodies:  # fmt: skip
     """Elements, drive, loads and drag.
@@ -185,19 +186,13 @@ def bodies_of(
     speed = _speed_table(drive)
     steps = 0.5 * np.diff(speed[0]) * (speed[1, 1:] + speed[1, :-1])
     rho = lubricant.density * lubricant.oil_fraction
-    ro = 0.5 * cage.outside_diameter
     azimuth = load.gravity_direction
     return Bodies(
         element=element,
         radius=radius,
         pitch=0.5 * bearing.pitch_diameter,
         gravity=load.gravity * np.array([0.0, np.cos(azimuth), np.sin(azimuth)]),
-        drag=np.array(
-            [
-                0.5 * rho * lubricant.drag_coefficient * area,
-                0.5 * rho * CAGE_SKIN_FRICTION * 2.0 * np.pi * ro**4 * cage.axial_width,
-            ]
-        ),
+        drag=0.5 * rho * np.array([lubricant.drag_coefficient * area, _skin(cage)]),
         by_shaft=int(drive.kind == "shaft"),
         shaft=np.array([drive.shaft_stiffness, drive.shaft_damping]),
         speed=speed,
@@ -214,6 +209,15 @@ def bodies_of(
         load_direction=np.array([np.cos(load.direction), np.sin(load.direction)]),
         moments=np.array([load.moment_y, load.moment_z]),
     )  # fmt: skip
+
+
+def _skin(cage: Cage | None) -> float:
+    """Friction coefficient times area times the radius cubed [m^5] of a cage's outside, on which
+    the mixture drags."""
+    if cage is None:
+        return 0.0
+    radius = 0.5 * cage.outside_diameter
+    return CAGE_SKIN_FRICTION * 2.0 * np.pi * radius**4 * cage.axial_width
 
 
 def inner_ring_of(bearing, drive: Drive, load: Load, *, free_axially: bool) -> RingBody:
@@ -242,12 +246,20 @@ def outer_ring_of(bearing, mount: Mount) -> RingBody:
     mass = bearing.outer_ring_mass + mount.mass
     moves, loose = mount.kind != "fixed", mount.kind == "contact"
     stiffness, damping = np.zeros((2, 6, 6))
+    free = np.array([0, 1, 1, 0, 0, 0]) * moves
     if moves and not loose:
-        stiffness[[1, 2], [1, 2]], damping[[1, 2], [1, 2]] = mount.stiffness, mount.damping
+        springs = np.zeros(6)
+        springs[YIELDS] = bushing_stiffness(mount)
+        dampers = np.zeros(6)
+        dampers[YIELDS] = (
+            mount.axial_damping, mount.damping, mount.damping, mount.tilt_damping,
+            mount.tilt_damping,
+        )  # fmt: skip
+        stiffness, damping, free = np.diag(springs), np.diag(dampers), 1 * (springs > 0.0)
     turns = np.array(bearing.outer_ring_inertia) * mass / bearing.outer_ring_mass
     return RingBody(
         inertia=np.array([mass, *turns]),
-        free=np.array([0, 1, 1, 0, 0, 0]) * moves,
+        free=free,
         stands=0,
         stiffness=stiffness,
         damping=damping,
@@ -255,6 +267,13 @@ def outer_ring_of(bearing, mount: Mount) -> RingBody:
         loose=int(loose),
         bore=np.array([mount.stiffness, mount.damping, mount.clearance]),
     )
+
+
+def bushing_stiffness(mount: Mount) -> np.ndarray:
+    """Stiffness (5,) of a bushing along x, y, z [N/m] and in tilt about y and z [N m/rad]; 0: it
+    holds the ring."""
+    tilt = mount.tilt_stiffness
+    return np.array([mount.axial_stiffness, mount.stiffness, mount.stiffness, tilt, tilt])
 
 
 def in_housing(ring: RingBody, compliance: np.ndarray, late: float) -> RingBody:

@@ -27,11 +27,12 @@ import numba
 import numpy as np
 from numba import types
 
+from flexcage.bodies.floating_frame import BodyData
 from flexcage.core.errors import InputError
 from flexcage.core.jit import LEAN, kernel, kernel_of, why_not_compiled
 from flexcage.core.kernel_values import KernelType
 from flexcage.core.registry import add, check_free
-from flexcage.core.vectors import TURN, xyz
+from flexcage.core.vectors import RIGID, TURN, xyz
 from flexcage.system import spec as specs
 from flexcage.system.data import AXIAL, MASS, TRANSVERSE
 from flexcage.system.layout import CONSTRAINTS as REACTIONS
@@ -282,15 +283,17 @@ def constraints_of(
 
 def _ease(model: Any, layout: Layout) -> np.ndarray:
     """Inverse mass or inertia (n,) of every motion of the bodies, 0 where it is held."""
-    cage, ease = model.cage, np.zeros(layout.places.border)
-    inertia = np.trace(cage.G0) - np.diag(cage.G0)
+    ease = np.zeros(layout.places.border)
     bodies = layout.border(ease)
     for name in ("inner", "outer"):
         ring = getattr(model, f"{name}_ring")
         free = ring.free * (np.arange(len(ring.free)) > 2) if ring.stands else ring.free
         bodies[name][:] = free / ring.inertia[[MASS, MASS, MASS, AXIAL, TRANSVERSE, TRANSVERSE]]
-    bodies["cage"][:], bodies["omega"][:] = 1.0 / cage.mass, 1.0 / inertia
-    bodies["modes"][:] = 1.0 / np.diag(cage.mff)
+    if layout.has_cage:
+        cage: BodyData = model.cage
+        inertia = np.trace(cage.G0) - np.diag(cage.G0)
+        bodies["cage"][:], bodies["omega"][:] = 1.0 / cage.mass, 1.0 / inertia
+        bodies["modes"][:] = 1.0 / np.diag(cage.mff)
     return ease
 
 
@@ -307,8 +310,9 @@ def check_independent(
     for i, spec in enumerate(constraints):
         G = _slopes(spec, data.p[i], layout.places, y)
         if not _has_slope(G):
-            for name in ("inner", "cage"):
-                layout.q(y)[name][1:3] += _NUDGE
+            for body in layout.bodies:
+                if body.name != "outer":
+                    layout.q(y)[body.name][1:3] += _NUDGE
             G = _slopes(spec, data.p[i], layout.places, y)
         if not _has_slope(G):
             raise InputError(
@@ -331,18 +335,25 @@ def check_independent(
 
 
 def _slopes(spec: Constraint, p: np.ndarray, at: Places, y: np.ndarray) -> np.ndarray:
-    """G (m, n) of one constraint; InputError if it fills more rows than it has labels."""
+    """G (m, n) of one constraint; InputError if it fills more rows than it has labels, or holds a
+    cage that is not there."""
     kind = KINDS[spec.type]
-    m = len(kind.labels)
-    G, g, h = np.zeros((m + _BEYOND, at.border)), np.zeros(m + _BEYOND), np.zeros(m + _BEYOND)
+    m, beyond = len(kind.labels), RIGID if at.cages == 0 else 0
+    G, g, h = np.zeros((m + _BEYOND, at.border + beyond)), *np.zeros((2, m + _BEYOND))
     kind.rows(0.0, y, at, p, G, g, h)
+    if G[:, at.border :].any():
+        raise InputError(
+            f"Constraint '{spec.type}' holds the cage, but the bearing has none; leave it out, or "
+            "give a cage.",
+            where=spec.type,
+        )
     if G[m:].any() or g[m:].any() or h[m:].any():
         raise InputError(
             f"Constraint '{spec.type}' fills more rows than the {m} that its labels name; register "
             "it with a label for each.",
             where=spec.type,
         )
-    return G[:m]
+    return G[:m, : at.border]
 
 
 def _has_slope(G: np.ndarray) -> bool:

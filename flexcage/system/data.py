@@ -24,6 +24,8 @@ POWERS = (
     "rolling_resistance",
     "pocket_damping",
     "pocket_friction",
+    "neighbour_damping",
+    "neighbour_friction",
     "rib_damping",
     "rib_friction",
     "land_damping",
@@ -36,8 +38,8 @@ POWERS = (
 )
 (
     DRIVE, LOAD, GRAVITY, RACE_DAMPING, RACE_FRICTION, ROLLING_RESISTANCE, POCKET_DAMPING,
-    POCKET_FRICTION, RIB_DAMPING, RIB_FRICTION, LAND_DAMPING, LAND_FRICTION, FILM, DRAG,
-    MODAL_DAMPING, MOUNT, CONSTRAINTS,
+    POCKET_FRICTION, NEIGHBOUR_DAMPING, NEIGHBOUR_FRICTION, RIB_DAMPING, RIB_FRICTION,
+    LAND_DAMPING, LAND_FRICTION, FILM, DRAG, MODAL_DAMPING, MOUNT, CONSTRAINTS,
 ) = range(len(POWERS))  # fmt: skip
 EXCHANGED = RACE_DAMPING  # so many, the first ones, the bearing exchanges with the outside
 # contact places of an element; from POCKET on the faces of its pocket, then ribs
@@ -141,7 +143,7 @@ class Report(NamedTuple):
     energy: np.ndarray  # (4,) places as above; that of the mount holds the shaft's springs too
     contact: np.ndarray  # (Z, places) booleans: races 2, faces of the pocket, ribs
     approach: np.ndarray  # (Z, places) approach speed of each
-    outer_wrench: np.ndarray  # (6,) of contacts on the outer ring, in space
+    outer_wrench: np.ndarray  # (6,) of contacts on the outer ring, in space, about its centre
     outer_races: np.ndarray  # (6,) the share of its races
 
 

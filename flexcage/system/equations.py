@@ -54,10 +54,11 @@ def shared_equations(t, y, yd, d, law, out, mode):
     The elements' equations call it as a function value, so that it is compiled separately, in
     another process at the same time (a third of the work, measured).
     """
-    land_forces(y, d, law, mode)
-    cage_equations(y, yd, d, out, mode)
-    _inner_equations(t, y, yd, d, out, mode)
     at = fields(d.places)
+    if at.cages > 0:
+        land_forces(y, d, law, mode)
+        cage_equations(y, yd, d, out, mode)
+    _inner_equations(t, y, yd, d, out, mode)
     rates, rows = rows_at(yd, at.outer_q, at.outer_u), rows_at(out, at.outer_q, at.outer_u)
     sloped, reported = mode == TANGENT, mode >= REPORT
     outer_rows(fields(d.outer_ring), outer_of(y, d), rates, rows, d, sloped, reported)

@@ -52,7 +52,7 @@ def hold(t, y, yd, d, rows, out, mode):
 def _places(at):
     """The places as the functions of constraints take them."""
     return Places(
-        at.elements, at.modes, at.q, at.u, at.inner_q, at.inner_u, at.inner_b, at.outer_q,
+        at.elements, at.cages, at.modes, at.q, at.u, at.inner_q, at.inner_u, at.inner_b, at.outer_q,
         at.outer_u, at.outer_b, at.cage_q, at.cage_u, at.cage_b, at.bodies_q, at.bodies_u,
         at.border, at.coordinates, at.lam, at.held, at.loads, at.swings,
     )  # fmt: skip
@@ -77,6 +77,8 @@ def _displaced(y, d, shift, out):
         ring_rates(array_from(y, q), array_from(shift, b), rates)
         for k in range(RING):
             out[q - at.bodies_q + k] = rates[k]
+    if at.cages == 0:
+        return
     own, cage = array_from(shift, at.cage_b), array_from(out, at.cage_q - at.bodies_q)
     for k in range(3):
         cage[k] = own[k]
@@ -193,10 +195,11 @@ def _bear(t, y, yd, d, rows):
         pull = c.pull[k]
         for j in range(at.border):
             pull[j] = c.G[k, j] if j >= at.cage_b else c.G[k, j] * c.ease[j]
-        cage_accelerations(
-            frame.rigid, frame.coupled, fields(d.cage).plain, fields(d.scratch).A,
-            pull[at.cage_b : at.cage_b + RIGID + at.modes], fields(d.rates),
-        )  # fmt: skip
+        if at.cages > 0:
+            cage_accelerations(
+                frame.rigid, frame.coupled, fields(d.cage).plain, fields(d.scratch).A,
+                pull[at.cage_b : at.cage_b + RIGID + at.modes], fields(d.rates),
+            )  # fmt: skip
     for k in range(m):
         c.x[k] = -0.5 * (c.late[1, k] - c.late[0, k]) / INSTANT
         for j in range(at.border):

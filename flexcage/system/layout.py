@@ -23,6 +23,7 @@ PER_ELEMENT = 6  # coordinates, and velocities, of a rolling element
 RING = 6
 # a floating frame: centre, quaternion, modes; velocity of its centre in space, angular velocity in
 # its own frame, rates of the modes
+CAGE = "cage"  # name of the body that is one
 QUATERNION, FRAME = 3, 7  # in its coordinates: where the quaternion begins, and the modes
 RING_FORCES = 4  # of every element on rings that bend: two on either ring
 CONSTRAINTS = ("axial_force", "moment_y", "moment_z", "drive_torque")
@@ -39,6 +40,7 @@ class Places(NamedTuple):
     in y (of their rates in y', of their rows in the residual), b of its velocity in the border."""
 
     elements: int  # so many
+    cages: int  # one or none; the places of one that is not there are behind all other bodies'
     modes: int  # so many of the cage
     q: int  # of the elements
     u: int
@@ -93,9 +95,9 @@ def floating(name: str, modes: int) -> Body:
     return Body(name, FRAME + modes, RIGID + modes)
 
 
-def bodies_of_bearing(modes: int) -> tuple[Body, ...]:
-    """Inner ring, outer ring, and a cage with so many modes."""
-    return ring("inner"), ring("outer"), floating("cage", modes)
+def bodies_of_bearing(modes: int | None) -> tuple[Body, ...]:
+    """Inner ring, outer ring, and a cage with so many modes; None: no cage."""
+    return ring("inner"), ring("outer"), *(() if modes is None else (floating(CAGE, modes),))
 
 
 @part
@@ -128,6 +130,11 @@ class Layout:
         return sum(body.modes for body in self.bodies)
 
     @property
+    def has_cage(self) -> bool:
+        """Is there a cage?"""
+        return any(body.name == CAGE for body in self.bodies)
+
+    @property
     def n_q(self) -> int:
         return self.places.u
 
@@ -156,13 +163,15 @@ class Layout:
         v = sum(body.velocities for body in self.bodies)
         lam = q + own + v
         end = lam + N_OWN + 2 * len(self.held)
-        at = {
+        at = dict(zip((f"{CAGE}_{kind}" for kind in "qub"), (q, lam, v), strict=True))
+        at |= {
             f"{body.name}_{kind}": place
             for body, *where in self._each(own, q + own, 0)
             for kind, place in zip("qub", where, strict=True)
         }
         return Places(
-            elements=self.elements, modes=self.modes, q=0, u=q, **at, bodies_q=own,
+            elements=self.elements, cages=int(self.has_cage), modes=self.modes, q=0, u=q, **at,
+            bodies_q=own,
             bodies_u=q + own, border=v, coordinates=q - own, lam=lam, held=lam + N_OWN, loads=end,
             swings=end + (RING_FORCES * self.elements if self.bends else 0),
         )  # fmt: skip

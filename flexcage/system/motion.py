@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections import namedtuple
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
-from flexcage.bodies.floating_frame import BodyData, FlexibleBody
+from flexcage.bodies.floating_frame import BodyData
 from flexcage.contacts.land import LandData
 from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.system.data import Bodies, RingBody, Work
@@ -47,10 +47,11 @@ Built = TypeVar("Built", bound=Model, covariant=True)
 
 
 class BuildModel(Protocol[Built]):
-    """The model of a bearing from its specs, its cage's body and what moves in the pockets."""
+    """The model of a bearing from its specs, its cage's body and what moves in the pockets; without
+    a cage all three are None."""
 
     def __call__(
-        self, bearing: Any, cage: Any, body: FlexibleBody, interface: Any, *, contacts: Contacts,
+        self, bearing: Any, cage: Any, body: Any, interface: Any, *, contacts: Contacts,
         lubricant: Lubricant, drive: Drive, load: Load, mount: Mount, seed: int = 0,
     ) -> Built: ...  # fmt: skip
 
@@ -102,7 +103,8 @@ class Motion(Generic[M]):
     compiles for a ``d`` of type ``parts``; ``new_work`` makes its workspaces. It calls the
     functions ``separate``, of the same arguments, as values: they are compiled on their own, by
     another process at the same time, and follow the laws in ``law``; the longest first. ``faces``
-    names the faces of a pocket, ``ribs`` what else an element may touch besides its races: a
+    names the faces of a pocket; ``uncaged`` has both of a bearing without a cage, where next
+    elements may stand for faces. ``ribs`` names what else an element may touch besides its races: a
     bearing has the first of them, as many as ``new_work`` makes room for.
     ``linearise(t, y, yd, data)`` fills the tangent, in plain Python that is compiled when an
     implicit method asks for it; None: mode TANGENT of ``evaluate`` does.
@@ -114,12 +116,20 @@ class Motion(Generic[M]):
     evaluate: Callable[..., None]
     separate: tuple[Callable[..., None], ...]
     faces: tuple[str, ...]
+    uncaged: tuple[tuple[Callable[..., None], ...], tuple[str, ...]]
     ribs: tuple[str, ...]
     start: FindStart
     error_weights: Callable[[M, Layout, float], np.ndarray]  # see ``scales.shared_weights``
     linearise: Callable[..., None] | None = None
     implicit_share: float = 0.0  # "auto" takes implicit steps below this many solver.stable_step
     implicit_weights: Callable[[M, Layout, float], np.ndarray] | None = None  # None: error_weights
+
+    @property
+    def without_cage(self) -> Motion[M]:
+        """The same of bearings without a cage. "auto" takes explicit steps: Newton's matrix lacks
+        how neighbours couple, and implicit ones are short while they touch."""
+        separate, faces = self.uncaged
+        return replace(self, separate=separate, faces=faces, implicit_share=0.0)
 
     def places(self, ribs: int) -> tuple[str, ...]:
         """Names of all contact places of an element with so many ribs and of the lands, in the

@@ -97,6 +97,42 @@ def _ring_change(s, r):
     r[Q_SPIN], r[Q_SKEW], r[Q_TILT] = s[U_SPIN], s[U_SKEW], s[U_TILT]
 
 
+@part
+def _frames(y, r, s, at):
+    """The cage's coordinates, their residuals or changes, and its displacement."""
+    return array_from(y, at.cage_q), array_from(r, at.cage_q), array_from(s, at.cage_b)
+
+
+@part
+def _frame_displacement(q, r, modes, s):
+    """Kinematic residuals r of a floating frame at q as a displacement s, in the order of its
+    velocities."""
+    for c in range(3):
+        s[c] = r[c]
+    quat, turn = array_from(q, QUATERNION), array_from(s, TURN)
+    rotation_of_quaternion_change(quat, array_from(r, QUATERNION), turn)
+    for k in range(modes):
+        s[RIGID + k] = r[FRAME + k]
+
+
+@part
+def _frame_change(q, s, modes, b, r):
+    """Changes of a floating frame's coordinates by a displacement s, in place of their residuals
+    r."""
+    quat, changed = array_from(q, QUATERNION), array_from(r, QUATERNION)
+    stretch, norm = 0.0, 0.0  # of the quaternion: no rotation, but it must not run away
+    for c in range(4):
+        stretch += quat[c] * changed[c]
+        norm += quat[c] * quat[c]
+    for c in range(3):
+        r[c] = s[c]
+    quaternion_rate(quat, array_from(s, TURN), changed)
+    for c in range(4):
+        changed[c] -= b * stretch / norm * quat[c]
+    for k in range(modes):
+        r[FRAME + k] = s[RIGID + k]
+
+
 @kernel(fastmath=VECTORISED)
 def newton_step(alpha, y, r, at, tan, m):
     """r <- Newton step for the residual r, all unknowns; alpha is that of the factors."""
@@ -112,20 +148,9 @@ def newton_step(alpha, y, r, at, tan, m):
             s[i, TURN + c] = r[o + tan.turns[c]]
     _ring_displacement(array_from(r, at.inner_q), array_from(sb, at.inner_b))
     _ring_displacement(array_from(r, at.outer_q), array_from(sb, at.outer_b))
-    cage, r_cage, s_cage = (
-        array_from(y, at.cage_q), array_from(r, at.cage_q), array_from(sb, at.cage_b)
-    )  # fmt: skip
-    quat, r_quat = array_from(cage, QUATERNION), array_from(r_cage, QUATERNION)
-    turn = array_from(s_cage, TURN)
-    for c in range(3):
-        s_cage[c] = r_cage[c]
-    rotation_of_quaternion_change(quat, r_quat, turn)
-    stretch, norm = 0.0, 0.0  # of the quaternion: no rotation, but it must not run away
-    for c in range(4):
-        stretch += quat[c] * r_quat[c]
-        norm += quat[c] * quat[c]
-    for k in range(nm):
-        s_cage[RIGID + k] = r_cage[FRAME + k]
+    if at.cages > 0:
+        cage, r_cage, s_cage = _frames(y, r, sb, at)
+        _frame_displacement(cage, r_cage, nm, s_cage)
     for k in range(nb):
         f = 0.0
         for c in range(n):
@@ -166,10 +191,6 @@ def newton_step(alpha, y, r, at, tan, m):
             sb[c] += b * tan.held[k, c] * xb[n + N_OWN + further + k]
     _ring_change(array_from(sb, at.inner_b), array_from(r, at.inner_q))
     _ring_change(array_from(sb, at.outer_b), array_from(r, at.outer_q))
-    for c in range(3):
-        r_cage[c] = s_cage[c]
-    quaternion_rate(quat, turn, r_quat)
-    for c in range(4):
-        r_quat[c] -= b * stretch / norm * quat[c]
-    for k in range(nm):
-        r_cage[FRAME + k] = s_cage[RIGID + k]
+    if at.cages > 0:
+        cage, r_cage, s_cage = _frames(y, r, sb, at)
+        _frame_change(cage, s_cage, nm, b, r_cage)

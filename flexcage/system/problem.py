@@ -100,6 +100,7 @@ class Samples(NamedTuple):
     land: np.ndarray
     land_station: np.ndarray
     energy: np.ndarray
+    outer_wrench: np.ndarray
     pocket_peak: np.ndarray  # (n, Z, faces) largest since the sample before, at and between steps
     force: np.ndarray  # (n * stride, 2) on the outer ring, fine grid
 

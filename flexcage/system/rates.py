@@ -68,7 +68,7 @@ def modal_oscillators(body: BodyData, layout: Layout) -> Oscillators:
 
     Others, and modes that do not swing (w = 0), are left among the other unknowns.
     """
-    if not body.plain:
+    if not (layout.has_cage and body.plain):
         return no_oscillators()
     mass = np.diag(body.mff)
     decay = 0.5 * np.diag(body.dff) / mass
@@ -144,10 +144,11 @@ def _rates(t, y, yd, data, mode):
         a[U_SPIN] = table_slope(bodies.speed, t) + wave_slope(bodies.waves[OF_SPEED], t)
         lam[DRIVE_TORQUE] = row[U_SPIN] + inner.inertia[AXIAL] * a[U_SPIN]
     _by_inertia(fields(d.outer_ring), array_from(yd, at.outer_u))  # what is held has none
-    cage_accelerations(
-        frame.rigid, frame.coupled, fields(d.cage).plain, fields(d.scratch).A,
-        yd[at.cage_u : at.cage_u + RIGID + at.modes], fields(d.rates),
-    )  # fmt: skip
+    if at.cages > 0:
+        cage_accelerations(
+            frame.rigid, frame.coupled, fields(d.cage).plain, fields(d.scratch).A,
+            yd[at.cage_u : at.cage_u + RIGID + at.modes], fields(d.rates),
+        )  # fmt: skip
     law[HOLD](t, y, yd, d, law[CONSTRAINT_EQUATIONS], out, BORNE)
 
 

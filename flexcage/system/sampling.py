@@ -225,6 +225,7 @@ def keep_report(s, k, rep, events):
     copy_into(s.land[k], rep.land)
     copy_into(s.land_station[k], rep.land_station)
     copy_into(s.energy[k], rep.energy)
+    copy_into(s.outer_wrench[k], rep.outer_wrench)
 
 
 @part

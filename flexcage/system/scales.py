@@ -27,14 +27,15 @@ def shared_weights(model: Any, layout: Layout, length: float) -> np.ndarray:
     q, u, speed = layout.q(allowed), layout.u(allowed), length * ERROR_RATE
     q["elements"][:, :2] = length
     q["elements"][:, 2] = length / pitch
-    q["inner"][1:3] = q["cage"][:] = length
-    q["quaternion"][:] = 0.5 * length / pitch
+    q["inner"][1:3] = length
     u["elements"][:, :3] = speed
-    u["inner"][1:3] = u["cage"][:] = speed
+    u["inner"][1:3] = speed
     free, arm = model.outer_ring.free > 0, np.array([1.0, 1.0, 1.0, pitch, pitch, pitch])
     q["outer"][_OF_VELOCITIES] = np.where(free, length / arm, np.inf)
     u["outer"][:] = np.where(free, speed / arm, np.inf)
-    u["omega"][:] = speed / pitch
+    if layout.has_cage:
+        q["cage"][:], q["quaternion"][:] = length, 0.5 * length / pitch
+        u["cage"][:], u["omega"][:] = speed, speed / pitch
     if layout.modes:
         largest = np.maximum(model.pocket.phi_max, 1e-3 * model.pocket.phi_max.max())
         q["modes"][:] = length / largest

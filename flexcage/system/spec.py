@@ -206,9 +206,10 @@ _ELASTIC = ("bushing", "contact")
 
 @dataclass(frozen=True, kw_only=True)
 class Mount(BodyFile):
-    """How the outer ring is held: fixed, or in a housing, in y and z.
+    """How the outer ring is held: fixed, or in a housing.
 
-    ``bushing``: an elastic ring between both, of equal stiffness in every direction. ``contact``:
+    ``bushing``: an elastic ring between both, of equal stiffness in y and z, and if the case gives
+    these with stiffnesses along the axis and in tilt; else it holds the ring there. ``contact``:
     the ring lies in a bore that is larger by ``clearance``; spring and damper act along the line
     of centres while it touches, and never pull. ``body``: the ring moves with the seat of an
     elastic housing in x, y, z and both tilts (``system.seat``), in a run with its mass.
@@ -227,6 +228,23 @@ class Mount(BodyFile):
     damping: float = quantity(
         "N*s/m", 2e3, doc="damping of the housing", minimum=0.0, when={"kind": _ELASTIC}
     )
+    axial_stiffness: float = quantity(
+        "N/m", 0.0, doc="axial stiffness of a bushing; 0: it holds the ring along the axis",
+        minimum=0.0, when={"kind": ("bushing",)},
+    )  # fmt: skip
+    axial_damping: float = quantity(
+        "N*s/m", 0.0, doc="axial damping of the bushing", minimum=0.0,
+        when={"axial_stiffness": GIVEN},
+    )  # fmt: skip
+    tilt_stiffness: float = quantity(
+        "N*m/rad", 0.0, doc="stiffness of a bushing in tilt, about y and z; 0: it holds the ring "
+        "in tilt",
+        minimum=0.0, when={"kind": ("bushing",)},
+    )  # fmt: skip
+    tilt_damping: float = quantity(
+        "N*m*s/rad", 0.0, doc="damping of the bushing in tilt", minimum=0.0,
+        when={"tilt_stiffness": GIVEN},
+    )  # fmt: skip
     clearance: float = quantity(
         "um", 10e-6, doc="radial clearance of the bore", minimum=0.0, when={"kind": ("contact",)}
     )

@@ -44,7 +44,7 @@ def _mesh(pocket: float) -> CageMesh:
 
 def bearing_of(case: Case) -> Bearing:
     """The case's bearing, ready to be integrated."""
-    return build_bearing(case, _mesh(2.0 * case.cage.pocket_reach), None)
+    return build_bearing(case, _mesh(2.0 * case.its_cage.pocket_reach), None)
 
 
 def balls_on_outer(bearing: Bearing) -> tuple[np.ndarray, np.ndarray]:

@@ -16,8 +16,8 @@ CASES = {
 }
 #: Parts of a model that know the elastic constants of rings and elements, and of the cage.
 ELASTIC = {
-    "n1013": {"inner", "outer", "rib", "pocket", "land"},
-    "nu210": {"inner", "outer", "outer_rib", "pocket", "land"},
+    "n1013": {"inner", "outer", "rib", "beside", "pocket", "land"},
+    "nu210": {"inner", "outer", "outer_rib", "beside", "pocket", "land"},
     "c7010": {"inner", "outer", "beside", "pocket", "land"},
 }
 FACTOR = {"youngs_modulus": 1.5, "poisson_ratio": 0.8, "density": 1.3}

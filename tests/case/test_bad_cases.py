@@ -290,14 +290,17 @@ def test_axial_loads_that_change_have_a_limit_too(name):
             '[bearing]\ntype = "deep_groove_ball"\nball_count = 8',
             ["'bore' (bearing bore d, in mm)", "'ball_diameter'", "'outer_groove_radius'"],
         ),
-        ("name = 'x'\n", ["lacks 'bearing' (the bearing) and 'cage' (the cage); give them"]),
+        ("name = 'x'\n", ["lacks 'bearing' (the bearing); give it"]),
         (
             '[bearing]\npreset = "NU1013"',
             ["presets are", "designs N, NU, NJ, NUP and NF", "give bearing.design"],
         ),
         ('[bearing]\npreset = "nj 205 ECP"', ["presets are", "give bearing.design"]),
         ('[bearing]\ntype = "NU"', ["give bearing.design (type 'cylindrical_roller')"]),
-        ('[bearing]\ntype = "NCF"', ["single-row and with a cage"]),
+        (
+            '[bearing]\ntype = "NCF"',
+            ["single-row: give", 'a full complement has model = "none" in [cage]'],
+        ),
         (
             '[bearing]\ntype = "tapered_roller"',
             ["cylindrical_roller", "angular_contact_ball, deep_groove_ball"],

@@ -26,7 +26,7 @@ MOST_LINES = 300
 #: Presets for the cases of a page, block by block, where they name none.
 CASES = {
     "README.md": ("",),
-    "examples/cases.md": ("N1013", "", "", "15x37x10", "N1013", "N1013", "N1013", "7010C-PI"),
+    "examples/cases.md": ("N1013", "", "", "15x37x10", "", "N1013", "N1013", "N1013", "7010C-PI"),
     "meshes/README.md": ("N1013",),
     "flexcage/cages/README.md": ("15x37x10",),
     "flexcage/modes/README.md": ("N1013",),

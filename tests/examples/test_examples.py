@@ -63,6 +63,13 @@ def test_nu210():
     assert run.case.land.clearance == pytest.approx(0.25e-3)
 
 
+def test_full_complement():
+    """From pure rolling, rollers outside the loaded zone begin to slow each other down."""
+    run = simulate(load_case(EXAMPLES / "n1013_full.toml").replace("solver.duration", "12 ms"))
+    assert 0.0 < run.summary["orbital_slip_ratio"] < 0.05
+    assert run.summary["element_touches"] > 10 and run.summary["energy_audit"] == "passed"
+
+
 def test_ball_bearing():
     rigid = {"mesh.fineness": "coarse", "cage.model": "rigid"}
     inner, outer = example("ex06_ball_bearing").main(duration="10 ms", **rigid)

@@ -22,6 +22,7 @@ from flexcage.results.warnings import (
     Outcome,
     Setup,
     from_attrs,
+    of_statics,
     to_text,
     warnings_of,
 )
@@ -233,13 +234,17 @@ WITHOUT_LAND = {k: v for k, v in FILLETED.items() if k != "land_inner"}
         ({"groups": WITHOUT_LAND}, "rigid_land", "no group 'land_inner'"),
         ({"pinched": (4, 5), "pinch_force": 12.0}, "pinched",
          "the roller of pockets 4, 5 is pinched with up to 12 N"),
-        ({"statics": ("the largest pressure, 5000 MPa, is above ...",)}, "static",
-         "At the start the largest pressure, 5000 MPa"),
     ],
 )  # fmt: skip
 def test_what_warns_at_the_start(changes, key, words):
     (found,) = warnings_of(AT_START, setup(**changes))
     assert found.key == key and words in found.text
+
+
+def test_what_the_static_solution_warns_of():
+    (found,) = of_statics(["the largest pressure, 5000 MPa, is above ..."])
+    assert found.key == "static"
+    assert found.text.startswith("At the start the largest pressure, 5000 MPa")
 
 
 def test_what_does_not_warn_at_the_start():

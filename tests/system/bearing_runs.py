@@ -40,6 +40,20 @@ def unbalanced(bearing, elements):
     return (bodies + [along.sum(), across.sum()]) / np.abs(work.wrenches[:, :3]).sum()
 
 
+def wrenches(bearing, y):
+    """Forces and moments about the origin (Z, 3) in space of all elements."""
+    bearing.residual(0.0, y, np.zeros_like(y), mode=2)
+    own, q = bearing.data.work.scratch.wrenches.copy(), bearing.layout.q(y)["elements"]
+    c, s = np.cos(q[:, 2]), np.sin(q[:, 2])
+
+    def in_space(a):
+        return np.stack([a[:, 0], c * a[:, 1] - s * a[:, 2], s * a[:, 1] + c * a[:, 2]], axis=1)
+
+    place = np.stack([q[:, 0], q[:, 1] * c, q[:, 1] * s], axis=1)
+    force = in_space(own[:, :3])
+    return force, in_space(own[:, 3:]) + np.cross(place, force)
+
+
 def assembled(model, contacts, constraints=()) -> Bearing:
     held = names_of(constraints)
     bodies = bodies_of_bearing(model.cage.mff.shape[0])

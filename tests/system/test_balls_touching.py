@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from ball_parts import PITCH, ball_bearing, contacts_of
-from bearing_runs import march
+from bearing_runs import march, wrenches
 
-from flexcage.bearings.ball.neighbours import NEXT_BALL
-from flexcage.system.data import IN_CONTACTS, POCKET_DAMPING, POCKET_FRICTION
+from flexcage.system.data import IN_CONTACTS, NEIGHBOUR_DAMPING, NEIGHBOUR_FRICTION
 
+NEXT_BALL = 3  # place of the contact: behind races and the pocket
 PAIRS = ((3, 4), (17, 0))  # the last ball's next one is the first
 
 
@@ -68,20 +68,6 @@ def test_forces_are_the_slopes_of_the_energy_and_only_of_those_that_touch():
     assert not force[[1, 8]].any()
 
 
-def wrenches(bearing, y):
-    """Forces and moments about the origin (Z, 3) in space of all balls."""
-    bearing.residual(0.0, y, np.zeros_like(y), mode=2)
-    own, q = bearing.data.work.scratch.wrenches.copy(), bearing.layout.q(y)["elements"]
-    c, s = np.cos(q[:, 2]), np.sin(q[:, 2])
-
-    def in_space(a):
-        return np.stack([a[:, 0], c * a[:, 1] - s * a[:, 2], s * a[:, 1] + c * a[:, 2]], axis=1)
-
-    place = np.stack([q[:, 0], q[:, 1] * c, q[:, 1] * s], axis=1)
-    force = in_space(own[:, :3])
-    return force, in_space(own[:, 3:]) + np.cross(place, force)
-
-
 def moving(bearing, y, seed=2):
     u = bearing.layout.u(y)["elements"]
     u[:] = np.random.default_rng(seed).standard_normal(u.shape) * (0.3, 0.3, 0.3, 90, 90, 90)
@@ -93,7 +79,7 @@ def test_momentum_and_its_moment_are_kept_with_friction_and_damping():
     moving(bearing, y)
     force, moment = wrenches(bearing, y)
     report = bearing.data.work.report
-    assert np.abs(force).max() > 50.0 and report.power[POCKET_FRICTION] < -1e-3
+    assert np.abs(force).max() > 50.0 and report.power[NEIGHBOUR_FRICTION] < -1e-3
     for i, j in PAIRS:
         np.testing.assert_allclose(force[i], -force[j], atol=1e-12 * np.abs(force).max())
         np.testing.assert_allclose(moment[i], -moment[j], atol=1e-12 * np.abs(moment).max())
@@ -104,7 +90,7 @@ def test_power_is_what_the_channels_say():
     u, layout = moving(bearing, y), bearing.layout
     bearing.residual(0.0, y, np.zeros_like(y), mode=2)
     power = float(np.sum(bearing.data.work.scratch.wrenches * u))
-    losses = bearing.data.work.report.power[[POCKET_DAMPING, POCKET_FRICTION]].sum()
+    losses = bearing.data.work.report.power[[NEIGHBOUR_DAMPING, NEIGHBOUR_FRICTION]].sum()
 
     def energy(t):
         moved = y.copy()

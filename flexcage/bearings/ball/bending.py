@@ -75,7 +75,8 @@ def evaluate(t, y, yd, d, law, out, mode):
         _outer_race(i, qi, ui, outer_of(y, d), s, d, law, mode)
         push_swings(i, d)
         push_by_slopes(i, q, y, d)
-        ball_in_pocket(i, qi, ui, Rc, Vc, modes, d, law, mode)
+        if at.cages > 0:
+            ball_in_pocket(i, qi, ui, Rc, Vc, modes, d, law, mode)
         ball_rows(i, qi, ui, qd[own], ud[own], d, r_q[own], r_u[own], mode)
     ring_rows(s, yd[at.loads :], rings, out[at.loads :])
     if mode >= REPORT:

@@ -49,11 +49,6 @@ KNOWN = (
         ("edge_outer", "Ellipse beyond the outer groove's edge", "deg", "likewise", SIGNED),
     ),
     *figures_in(
-        "Contacts of the cage",
-        ("element_touches", "{Element}s touching the next one", "",
-         "times in the settled part that a ball met the next one; shown if there are any"),
-    ),
-    *figures_in(
         "Cage motion",
         ("whirl_difference", "Whirl radius, max - min", "um",
          "of the centre's distance from the ring's axis", SIGNED),
@@ -80,9 +75,9 @@ def _nominal_rows(ds: xarray.Dataset, bearing: BearingNumbers) -> tuple[Row, ...
     speed, note = metrics.cage_speed(ds, bearing), at_nominal(bearing)
     part = metrics.whole_revolutions(ds)
     ideal = part["inner_speed"].values * bearing.nominal.kinematics(1.0).cage_speed
-    slip = element_passes(part, bearing).ratio(
-        ideal - part["cage_omega"].sel(axis="x").values, ideal
-    )
+    if not metrics.caged(ds):
+        return (figure("epicyclic_speed_nominal", speed.nominal, note),)
+    slip = element_passes(part, bearing).ratio(ideal - metrics.carrier_speed(part).values, ideal)
     return (
         figure("epicyclic_speed_nominal", speed.nominal, note),
         statistic("cage_slip_ratio_nominal", slip, note, value=speed.nominal_slip),

@@ -3,20 +3,26 @@
 from __future__ import annotations
 
 from math import pi
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from flexcage.bearings.ball.bearing import BallBearing
 from flexcage.bearings.ball.neighbours import besides
-from flexcage.bodies.floating_frame import BodyData, FlexibleBody
+from flexcage.bodies.floating_frame import BodyData, no_body
 from flexcage.cages.round_pocket.cage import BallCage
 from flexcage.cages.round_pocket.interface import BallCageInterface
 from flexcage.contacts import laws
-from flexcage.contacts.ball_pocket import CYLINDER, SPHERE, BallPockets, ball_pocket_work
+from flexcage.contacts.ball_pocket import (
+    CYLINDER,
+    SPHERE,
+    BallPockets,
+    ball_pocket_work,
+    no_ball_pockets,
+)
 from flexcage.contacts.beside import Beside
 from flexcage.contacts.groove import Groove
-from flexcage.contacts.land import NONE, LandData, with_other
+from flexcage.contacts.land import NONE, LandData, no_land, with_other
 from flexcage.contacts.race import race_work
 from flexcage.contacts.spec import Contacts, LandSpec, Lubricant
 from flexcage.contacts.uneven import is_uneven, spread, uneven_race
@@ -158,10 +164,11 @@ def _pockets(
 
 
 def build_ball_model(
-    bearing: BallBearing, cage: BallCage, body: FlexibleBody, interface: BallCageInterface, *,
+    bearing: BallBearing, cage: BallCage | None, body: Any, interface: Any, *,
     contacts: Contacts, lubricant: Lubricant, drive: Drive, load: Load, mount: Mount, seed: int = 0,
 ) -> BallModel:  # fmt: skip
-    """Arrays of a ball bearing for the kernels."""
+    """Arrays of a ball bearing for the kernels, from its cage's body (``FlexibleBody``) and
+    interface (``BallCageInterface``); without a cage all three are None."""
     rng = np.random.default_rng(seed)
     scatter = bearing.ball_scatter * rng.standard_normal(bearing.ball_count)
     radius_of_balls = 0.5 * (bearing.ball_diameter + scatter)
@@ -174,13 +181,18 @@ def build_ball_model(
         ),
         inner_ring=inner_ring_of(bearing, drive, load, free_axially=True),
         outer_ring=outer_ring_of(bearing, mount),
-        cage=unbalanced(body, cage).data,
+        cage=unbalanced(body, cage).data if cage else no_body().data,
         inner=groove_of(bearing, contacts, lubricant, inner=True),
         outer=groove_of(bearing, contacts, lubricant, inner=False),
-        pocket=_pockets(bearing, cage, contacts, interface),
+        pocket=(
+            _pockets(bearing, cage, contacts, interface) if cage
+            else no_ball_pockets(bearing.ball_count)
+        ),
         beside=besides(bearing, contacts, radius_of_balls),
         spot=SpottedBalls(marked(bearing.ball_count, bearing.ball_spot.balls)),
-        land=_lands(bearing, cage, contacts.land, lubricant, interface.land),
+        land=(
+            _lands(bearing, cage, contacts.land, lubricant, interface.land) if cage else no_land()
+        ),
     )  # fmt: skip
 
 
@@ -207,7 +219,8 @@ def ball_work(model: BallModel, layout: Layout) -> Work:
     """Fresh workspaces of a ball bearing for one thread."""
     stations = model.pocket.phi.shape[2]
     return new_work(
-        layout, race_work(1), ball_pocket_work(stations, layout.modes), slices=0, points=0, faces=1,
-        stations=stations, ribs=1, land_stations=len(model.land.angle), turns=(3, 4, 5),
+        layout, race_work(1), ball_pocket_work(stations, layout.modes), slices=0, points=0,
+        faces=int(layout.has_cage), stations=stations, ribs=1,
+        land_stations=len(model.land.angle), turns=(3, 4, 5),
         other_land=model.land.other_kind != NONE,
     )  # fmt: skip

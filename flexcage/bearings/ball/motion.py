@@ -21,6 +21,7 @@ MOTION = Motion(
     evaluate=evaluate,
     separate=(shared_equations, touch_neighbours),
     faces=("pocket",),
+    uncaged=((shared_equations, touch_neighbours), ()),
     ribs=("next ball",),
     start=ball_start,
     error_weights=ball_weights,

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.contacts import laws as contact_laws
-from flexcage.contacts.beside import Beside, TwoBalls, touch_beside
+from flexcage.contacts.beside import Beside, TwoBalls, seen, touch_beside
 from flexcage.contacts.evaluation import RACE_LAW, RACE_RUBS, REPORT, TANGENT
 from flexcage.contacts.laws import EXPONENT
 from flexcage.contacts.slices import Laws, stored_and_damped
@@ -26,14 +26,13 @@ from flexcage.contacts.state import (
 from flexcage.core.jit import fields, outlined, part
 from flexcage.core.vectors import cross, dot, minus, times, turn_of, xyz
 from flexcage.geometry.hertz import PointContact
-from flexcage.system.data import IN_CONTACTS, POCKET, POCKET_DAMPING, POCKET_FRICTION
+from flexcage.system.data import IN_CONTACTS, NEIGHBOUR_DAMPING, NEIGHBOUR_FRICTION, POCKET
 from flexcage.system.layout import of_element
 
 if TYPE_CHECKING:
     from flexcage.bearings.ball.bearing import BallBearing
     from flexcage.contacts.spec import Contacts
 
-NEXT_BALL = POCKET + 1  # place of a ball's contact with the next one, behind that with its pocket
 _INWARDS = 0.05  # of the pitch radius: no ball comes nearer to the axis
 _NEAR = 1.05  # balls so many diameters apart or nearer are looked at
 _POINT = 1.5  # exponent of a Hertz contact
@@ -70,7 +69,13 @@ def touch_neighbours(t, y, yd, d, law, out, mode):
             else:
                 _push(i, j, ahead, q, u, d, law, mode)
         elif mode >= REPORT:
-            fields(d.report).approach[i, NEXT_BALL] = 0.0
+            fields(d.report).approach[i, _next_ball(fields(d.report))] = 0.0
+
+
+@part
+def _next_ball(rep):
+    """Place of a ball's contact with the next one, behind that with its pocket, if it has one."""
+    return POCKET + rep.pocket_normal.shape[1]
 
 
 @part
@@ -81,21 +86,15 @@ def _ahead(i, j, q):
 
 
 @part
-def _seen(c, s, a):
-    """A vector in the frame of a ball that is behind by an angle, cosine c and sine s."""
-    return a[0], c * a[1] - s * a[2], s * a[1] + c * a[2]
-
-
-@part
 def _pair(i, j, ahead, q, u, d):
     """Balls i and j in the frame of i."""
     radius, onset = fields(d.bodies).radius, fields(d.memory).rib[i, 0]
     qi, qj, ui, uj = q[of_element(i)], q[of_element(j)], u[of_element(i)], u[of_element(j)]
     c, s = cos(ahead), sin(ahead)
-    place = minus(_seen(c, s, (qj[0], qj[1], 0.0)), (qi[0], qi[1], 0.0))
-    velocity = minus(xyz(ui), _seen(c, s, xyz(uj)))
+    place = minus(seen(c, s, (qj[0], qj[1], 0.0)), (qi[0], qi[1], 0.0))
+    velocity = minus(xyz(ui), seen(c, s, xyz(uj)))
     return TwoBalls(
-        (radius[i], radius[j]), place, velocity, turn_of(ui), _seen(c, s, turn_of(uj)), onset
+        (radius[i], radius[j]), place, velocity, turn_of(ui), seen(c, s, turn_of(uj)), onset
     )
 
 
@@ -107,21 +106,21 @@ def _push(i, j, ahead, q, u, d, law, mode):
     two = _pair(i, j, ahead, q, u, d)
     touch = touch_beside(two, beside, Laws(law[RACE_LAW], law[RACE_RUBS]), sl)
     if mode >= REPORT:
-        rep.approach[i, NEXT_BALL] = sl.v[0]
+        rep.approach[i, _next_ball(rep)] = sl.v[0]
     if sl.d[0] <= 0.0:
         return
     arms, c, s = touch.arms, cos(ahead), sin(ahead)
     moment = cross(touch.line, touch.friction)
-    back = _seen(c, -s, times(-1.0, touch.force))
+    back = seen(c, -s, times(-1.0, touch.force))
     add_force_and_moment(work.wrenches[i], touch.force, times(arms[0], moment))
-    add_force_and_moment(work.wrenches[j], back, _seen(c, -s, times(arms[1], moment)))
+    add_force_and_moment(work.wrenches[j], back, seen(c, -s, times(arms[1], moment)))
     if mode >= REPORT:
         energy, damped = stored_and_damped((0, 1), sl, beside.normal[EXPONENT])
         rep.rib[i, 0] = sl.N[0]
-        rep.contact[i, NEXT_BALL] = 1 if sl.N[0] > 0.0 else 0
+        rep.contact[i, _next_ball(rep)] = 1 if sl.N[0] > 0.0 else 0
         rep.energy[IN_CONTACTS] += energy
-        rep.power[POCKET_DAMPING] += damped
-        rep.power[POCKET_FRICTION] += dot(touch.friction, touch.slip)
+        rep.power[NEIGHBOUR_DAMPING] += damped
+        rep.power[NEIGHBOUR_FRICTION] += dot(touch.friction, touch.slip)
 
 
 @outlined
@@ -135,7 +134,7 @@ def _slopes(i, j, ahead, q, u, d, law):
     c, s, arms = cos(ahead), sin(ahead), touch.arms
     line, slip = touch.line, touch.slip
     _own_slopes(line, slip, arms[0], sl, pair, tan.Krr[i], tan.Crr[i])
-    line, slip = _seen(c, -s, times(-1.0, line)), _seen(c, -s, times(-1.0, slip))
+    line, slip = seen(c, -s, times(-1.0, line)), seen(c, -s, times(-1.0, slip))
     _own_slopes(line, slip, arms[1], sl, pair, tan.Krr[j], tan.Crr[j])
 
 

@@ -15,7 +15,8 @@ from flexcage.system.problem import Bearing
 
 
 def _coords(model: BallModel) -> dict[str, Any]:
-    return {"station": np.arange(model.pocket.phi.shape[2])}
+    stations = model.pocket.phi.shape[2]
+    return {"station": np.arange(stations)} if stations else {}
 
 
 def _variables(bearing: Bearing, y: np.ndarray) -> dict[str, np.ndarray]:
@@ -30,8 +31,8 @@ def _variables(bearing: Bearing, y: np.ndarray) -> dict[str, np.ndarray]:
         "race_traction": s.race[:n, :, :, 2],
         "race_traction_across": s.race[:n, :, :, 3],
         "race_slip": s.race[:n, :, :, 4],
-        "pocket_direction": s.residual[:n, :, 0],
         "neighbour_force": s.rib[:n, :, 0],
+        **({"pocket_direction": s.residual[:n, :, 0]} if bearing.layout.has_cage else {}),
         **_spots(bearing.data.model, q),
     }
 
@@ -54,7 +55,7 @@ def _spots(model: BallModel, q: np.ndarray) -> dict[str, np.ndarray]:
 
 def overlaps(model: BallModel, layout: Layout, y: np.ndarray) -> np.ndarray:
     """Depths (n, Z, 5) of balls in races, their pocket and the next ball, and outside the cage's
-    wall; see ``Recording``."""
+    wall, without a cage (n, Z, 3) in races and the next ball; see ``Recording``."""
     q, radius = layout.q(y), model.bodies.radius
     x, r, psi = np.moveaxis(q["elements"][..., :3], -1, 0)
     at = np.stack([x, r * np.cos(psi), r * np.sin(psi)], axis=-1)
@@ -66,6 +67,9 @@ def overlaps(model: BallModel, layout: Layout, y: np.ndarray) -> np.ndarray:
             (model.outer, at - q["outer"][:, None, :3]),
         )
     ]
+    beside = radius + np.roll(radius, -1) - np.linalg.norm(np.roll(at, -1, axis=1) - at, axis=-1)
+    if not layout.has_cage:
+        return np.stack([*races, beside], axis=-1)
     frames = Rotation.from_quat(q["quaternion"], scalar_first=True).as_matrix()
     seen = np.einsum("nzc,ncd->nzd", at - q["cage"][:, None], frames)
     cos, sin = model.pocket.azimuth.T
@@ -76,7 +80,6 @@ def overlaps(model: BallModel, layout: Layout, y: np.ndarray) -> np.ndarray:
     )
     away = np.hypot(seen[..., 1], seen[..., 2])
     outside = np.maximum(model.pocket.wall[0] - away, away - model.pocket.wall[1])
-    beside = radius + np.roll(radius, -1) - np.linalg.norm(np.roll(at, -1, axis=1) - at, axis=-1)
     return np.stack([*races, free - (model.pocket.radius - radius), beside, outside], axis=-1)
 
 
@@ -87,5 +90,10 @@ def _remedy(model: BallModel) -> str:
 
 
 RECORDING = Recording(
-    coords=_coords, variables=_variables, overlaps=overlaps, remedy=_remedy, spots=_spotted
+    coords=_coords,
+    variables=_variables,
+    overlaps=overlaps,
+    remedy=_remedy,
+    spots=_spotted,
+    touch=True,
 )

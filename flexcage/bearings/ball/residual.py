@@ -89,7 +89,8 @@ def evaluate(t, y, yd, d, law, out, mode):
         set_frame(qi[2], fields(d.pose).F)
         _on_race(i, qi, ui, inner_of(y, d), fields(d.inner), INNER_RACE, d, law, mode)
         _on_race(i, qi, ui, outer_of(y, d), fields(d.outer), OUTER_RACE, d, law, mode)
-        ball_in_pocket(i, qi, ui, Rc, Vc, modes, d, law, mode)
+        if at.cages > 0:
+            ball_in_pocket(i, qi, ui, Rc, Vc, modes, d, law, mode)
         ball_rows(i, qi, ui, qd[own], ud[own], d, r_q[own], r_u[own], mode)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
 
@@ -102,8 +103,9 @@ def set_bodies(y, d, mode):
     clear_sums(work.border, d, mode)
     qf = y[modes_at(at.cage_q + FRAME, at.modes)]
     qfd = y[modes_at(at.cage_u + RIGID, at.modes)]
-    matrix_from_quaternion(array_from(y, at.cage_q + QUATERNION), work.A)
-    put(work.vec[CAGE_SPIN], turned(work.A, turn_of(array_from(y, at.cage_u))))
+    if at.cages > 0:
+        matrix_from_quaternion(array_from(y, at.cage_q + QUATERNION), work.A)
+        put(work.vec[CAGE_SPIN], turned(work.A, turn_of(array_from(y, at.cage_u))))
     set_axes(y, d)
     margin = 0.0
     for m in range(at.modes):

@@ -8,6 +8,7 @@ from flexcage.results.metrics import (
     BearingNumbers,
     ElementSpeed,
     at_own_angles,
+    carrier_speed,
     rolling_sense,
     slip_of,
 )
@@ -17,10 +18,11 @@ if TYPE_CHECKING:
 
 
 def spin(ds: xarray.Dataset) -> xarray.DataArray:
-    """Speed of every ball about its own axis, relative to the cage, (time, element) [rad/s];
-    negative where it turns about the bearing axis against the sense of rolling."""
+    """Speed of every ball about its own axis, relative to the cage or without one to the balls'
+    mean orbit, (time, element) [rad/s]; negative where it turns about the bearing axis against the
+    sense of rolling."""
     omega = ds["element_omega"].transpose("time", "element", "spin_axis")
-    axial = omega.sel(spin_axis="axial", drop=True) - ds["cage_omega"].sel(axis="x", drop=True)
+    axial = omega.sel(spin_axis="axial", drop=True) - carrier_speed(ds)
     across = (omega.sel(spin_axis=["radial", "tangential"]) ** 2).sum("spin_axis")
     speed = (axial**2 + across) ** 0.5
     out: xarray.DataArray = speed.where(rolling_sense(ds) * axial >= 0.0, -speed)

@@ -79,8 +79,8 @@ def ball_places(bearing: Bearing, solution: StaticSolution) -> np.ndarray:
     turned = tilt * np.cos(psi) - skew * np.sin(psi)
     q["elements"][:, 0] += along - r * turned
     q["elements"][:, 1] += up * np.cos(psi) + aside * np.sin(psi) + x * turned
-    q["cage"][0] = q["elements"][:, 0].mean()
-    q["quaternion"][0] = 1.0
+    if layout.has_cage:
+        q["cage"][0], q["quaternion"][0] = q["elements"][:, 0].mean(), 1.0
     return y
 
 
@@ -105,8 +105,8 @@ def rolling_balls(
     qd["elements"][:, 2] = orbit
     qd["elements"][:, 3:] = u["elements"][:, 3:]
     u["inner"][3] = qd["inner"][5] = speed
-    u["omega"][0] = cage
-    qd["quaternion"][1] = 0.5 * cage
+    if layout.has_cage:
+        u["omega"][0], qd["quaternion"][1] = cage, 0.5 * cage
     return yd
 
 

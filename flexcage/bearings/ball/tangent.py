@@ -55,7 +55,8 @@ def linearise(t, y, yd, data):
         set_frame(qi[2], fields(d.pose).F)
         _race(i, qi, ui, inner_of(y, d), fields(d.inner), INNER_RACE, d, law)
         _race(i, qi, ui, outer_of(y, d), fields(d.outer), OUTER_RACE, d, law)
-        _pocket(i, qi, ui, Rc, Vc, modes, d, law)
+        if at.cages > 0:
+            _pocket(i, qi, ui, Rc, Vc, modes, d, law)
         _inertia(i, qi[1], ui, d)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], fields(d.scratch).out, TANGENT)
 

@@ -16,12 +16,8 @@ VARIABLES = OwnVariables(
             "element", "race",
         ),
         sampled(
-            "neighbour_force", "N", "normal force of the next ball, where two touch each other",
-            "element",
-        ),
-        sampled(
             "pocket_direction", "rad", "where a ball stands in its pocket, from +psi towards +x",
-            "element",
+            "element", of_cage=True,
         ),
     )
 )  # fmt: skip

@@ -27,8 +27,8 @@ from flexcage.geometry.other_kinds import SURROUNDINGS
 from flexcage.geometry.spall import BY_RACE, Spall
 
 BY_DESIGN = (
-    f"of cylindrical roller bearings flexcage has the designs {designs.ALL}, single-row and with a "
-    "cage: give bearing.design (type 'cylindrical_roller')"
+    f"of cylindrical roller bearings flexcage has the designs {designs.ALL}, single-row: give "
+    "bearing.design (type 'cylindrical_roller'); a full complement has model = \"none\" in [cage]"
 )
 #: Names of designs of cylindrical roller bearings, and what asks for them.
 OTHER_DESIGNS = {r"(cylindrical_roller_)?(rnu|nup?|nj|nf|nnu?|n?ncf)([-_ ]?\d.*)?": BY_DESIGN}

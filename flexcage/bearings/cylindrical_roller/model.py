@@ -3,29 +3,32 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
 from flexcage.bearings.cylindrical_roller.designs import DESIGNS
 from flexcage.bearings.cylindrical_roller.lands import limits
+from flexcage.bearings.cylindrical_roller.neighbours import rollers_beside
 from flexcage.bearings.cylindrical_roller.ribs import rib_height
 from flexcage.bearings.cylindrical_roller.variables import END_POINTS
-from flexcage.bodies.floating_frame import BodyData, FlexibleBody
+from flexcage.bodies.floating_frame import BodyData, no_body
 from flexcage.cages.window.cage import WindowCage
 from flexcage.contacts import laws
-from flexcage.contacts.land import LandData
+from flexcage.contacts.land import LandData, no_land
 from flexcage.contacts.pocket_wall import (
     N_FACE,
     N_LOCAL,
     PocketData,
     modal_rows,
+    no_pockets,
     pocket_work,
     with_end_stations,
 )
 from flexcage.contacts.race import RaceSide, race_work
 from flexcage.contacts.rib import RibData
+from flexcage.contacts.roller_beside import RollersBeside
 from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT
 from flexcage.contacts.uneven import is_uneven, spread, uneven_race
@@ -63,6 +66,7 @@ class RollerModel(NamedTuple):
     rib: RibData  # of the inner ring
     outer_rib: RibData
     pocket: PocketData
+    beside: RollersBeside
     spot: SpottedRollers
     land: LandData
 
@@ -256,15 +260,14 @@ def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) ->
 
 
 def build_roller_model(
-    bearing: RollerBearing, cage: WindowCage, body: FlexibleBody, interface: CageInterface, *,
+    bearing: RollerBearing, cage: WindowCage | None, body: Any, interface: Any, *,
     contacts: Contacts, lubricant: Lubricant, drive: Drive, load: Load, mount: Mount, seed: int = 0,
 ) -> RollerModel:  # fmt: skip
-    """Arrays of a roller bearing for the kernels."""
+    """Arrays of a roller bearing for the kernels, from its cage's body (``FlexibleBody``) and
+    interface (``CageInterface``); without a cage all three are None."""
     scatter = bearing.roller_scatter * np.random.default_rng(seed).standard_normal(
         bearing.roller_count
     )
-    outer, radius, clearance = _guiding_land(bearing, cage)
-    land = replace(contacts.land.on(bearing.land(cage)), clearance=clearance)
     spot = bearing.roller_spot
     return RollerModel(
         bodies=bodies_of(
@@ -275,18 +278,38 @@ def build_roller_model(
         ),
         inner_ring=inner_ring_of(bearing, drive, load, free_axially=load.frees_axially(bearing)),
         outer_ring=outer_ring_of(bearing, mount),
-        cage=unbalanced(body, cage).data,
+        cage=unbalanced(body, cage).data if cage else no_body().data,
         inner=_race_side(bearing, contacts, lubricant, inner=True),
         outer=_race_side(bearing, contacts, lubricant, inner=False),
         rib=_rib_data(bearing, contacts, "inner"),
         outer_rib=_rib_data(bearing, contacts, "outer"),
-        pocket=_pocket_data(bearing, cage, contacts, interface),
-        spot=SpottedRollers(marked(bearing.roller_count, spot.rollers), spot.angle),
-        land=land_data(
-            cage, land, lubricant, interface.land, kind=land.kind, outer=outer, radius=radius,
-            bearing=bearing,
+        pocket=(
+            _pocket_data(bearing, cage, contacts, interface) if cage
+            else no_pockets(bearing.roller_count, 0.5 * bearing.roller_length)
         ),
+        beside=rollers_beside(bearing, contacts, *slice_grid(bearing, contacts.race.slices)),
+        spot=SpottedRollers(marked(bearing.roller_count, spot.rollers), spot.angle),
+        land=_land(bearing, cage, contacts, lubricant, interface) if cage else no_land(),
     )  # fmt: skip
+
+
+def _land(
+    bearing: RollerBearing, cage: WindowCage, contacts: Contacts, lubricant: Lubricant,
+    interface: CageInterface,
+) -> LandData:  # fmt: skip
+    """The cage's land on the ring that guides it."""
+    outer, radius, clearance = _guiding_land(bearing, cage)
+    land = replace(contacts.land.on(bearing.land(cage)), clearance=clearance)
+    return land_data(
+        cage,
+        land,
+        lubricant,
+        interface.land,
+        kind=land.kind,
+        outer=outer,
+        radius=radius,
+        bearing=bearing,
+    )
 
 
 def rib_columns(model: RollerModel) -> int:
@@ -304,6 +327,7 @@ def roller_work(model: RollerModel, layout: Layout) -> Work:
     )
     return new_work(
         layout, race_work(len(model.inner.s)), pocket_work(slices, points, stations, layout.modes),
-        slices=slices, points=points, faces=4, stations=stations, ribs=rib_columns(model),
-        land_stations=len(model.land.angle), turns=(Q_SPIN, Q_SKEW, Q_TILT),
+        slices=slices, points=points, faces=4 if layout.has_cage else 1, stations=stations,
+        ribs=rib_columns(model), land_stations=len(model.land.angle),
+        turns=(Q_SPIN, Q_SKEW, Q_TILT),
     )  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from flexcage.bearings.cylindrical_roller.model import RollerModel, build_roller_model, roller_work
+from flexcage.bearings.cylindrical_roller.neighbours import touch_next
 from flexcage.bearings.cylindrical_roller.pockets import roller_pockets
 from flexcage.bearings.cylindrical_roller.residual import evaluate
 from flexcage.bearings.cylindrical_roller.scales import roller_weights
@@ -21,6 +22,7 @@ MOTION = Motion(
     evaluate=evaluate,
     separate=(roller_pockets, shared_equations),
     faces=FACES,
+    uncaged=((touch_next, shared_equations), ("next roller",)),
     ribs=("rib +x", "rib -x", "counter rib +x", "counter rib -x"),
     start=roller_start,
     error_weights=roller_weights,

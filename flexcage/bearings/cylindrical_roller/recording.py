@@ -16,6 +16,8 @@ from flexcage.system.problem import Bearing
 
 
 def _coords(model: RollerModel) -> dict[str, Any]:
+    if not len(model.pocket.s):  # no cage
+        return {}
     pocket, stations = model.pocket, np.arange(model.pocket.phi.shape[2])
     along = pocket.x0[:, None] + pocket.dx[:, None] * stations
     return {
@@ -39,7 +41,6 @@ def _coords(model: RollerModel) -> dict[str, Any]:
 def _variables(bearing: Bearing, y: np.ndarray) -> dict[str, np.ndarray]:
     s, n = bearing.data.samples, len(y)
     q, u = bearing.layout.q(y)["elements"], bearing.layout.u(y)["elements"]
-    root = bearing.data.model.pocket.root
     return {
         "element_position": q[:, :, :3],
         "element_velocity": u[:, :, :3],
@@ -50,15 +51,27 @@ def _variables(bearing: Bearing, y: np.ndarray) -> dict[str, np.ndarray]:
         "race_traction": s.race[:n, :, :, 1],
         "race_moment": s.race[:n, :, :, [3, 2]],
         "race_slip": s.race[:n, :, :, 4],
+        **(_in_pockets(bearing, n) if bearing.layout.has_cage else _beside(bearing, n)),
+        "rib_force": s.rib[:n, :, :2],
+        "counter_rib_force": s.rib[:n, :, 2:] if s.rib.shape[2] > 2 else np.zeros_like(s.rib[:n]),
+        **_spots(bearing.data.model, q),
+    }
+
+
+def _in_pockets(bearing: Bearing, n: int) -> dict[str, np.ndarray]:
+    s, root = bearing.data.samples, bearing.data.model.pocket.root
+    return {
         "pocket_slice_force": s.slice_normal[:n],
         "pocket_slice_friction": s.slice_friction[:n],
         "pocket_point_force": s.point_normal[:n],
         "pocket_point_friction": s.point_friction[:n],
         "residual_coordinates": np.einsum("zab,tzb->tza", root, s.residual[:n]),
-        "rib_force": s.rib[:n, :, :2],
-        "counter_rib_force": s.rib[:n, :, 2:] if s.rib.shape[2] > 2 else np.zeros_like(s.rib[:n]),
-        **_spots(bearing.data.model, q),
     }
+
+
+def _beside(bearing: Bearing, n: int) -> dict[str, np.ndarray]:
+    """Of rollers without a cage: next ones stand for walls of pockets (``Motion.uncaged``)."""
+    return {"neighbour_force": bearing.data.samples.pocket_normal[:n, :, 0]}
 
 
 def _spotted(model: RollerModel) -> np.ndarray:
@@ -77,34 +90,45 @@ def _spots(model: RollerModel, q: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def overlaps(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarray:
-    """Depths (n, Z, places) of rollers in races, faces of their pockets and ribs; see
-    ``Recording``. A face lies where it is widest."""
-    q = layout.q(y)
-    radius, (cos, sin) = model.bodies.radius, model.pocket.azimuth.T
+    """Depths (n, Z, places) of rollers in races, faces of their pockets or next rollers, and ribs;
+    see ``Recording``. A face lies where it is widest."""
+    q, radius = layout.q(y), model.bodies.radius
     x, r, psi = np.moveaxis(q["elements"][..., :3], -1, 0)
     at = np.stack([x, r * np.cos(psi), r * np.sin(psi)], axis=-1)
     in_inner, in_outer = at - q["inner"][:, None, :3], at - q["outer"][:, None, :3]
-    frames = Rotation.from_quat(q["quaternion"], scalar_first=True).as_matrix()
-    seen = np.einsum("nzc,ncd->nzd", at - q["cage"][:, None], frames)
-    ahead, end = seen[..., 2] * cos - seen[..., 1] * sin, model.pocket.half_roller
+    end = model.pocket.half_roller
     none = np.full_like(x, -np.inf)
     ribs = [none] * rib_columns(model)
     for data, place in ((model.rib, in_inner), (model.outer_rib, in_outer)):
         for f in range(data.first, data.end):
             ribs[data.column + f] = place[..., 0] * (1.0, -1.0)[f] + end - data.half_gap
-    walls = np.repeat(model.pocket.half, 2) + np.maximum(model.pocket.offset.max(axis=2), 0.0)
+    if layout.has_cage:
+        beside = _in_walls(model, q, at)
+    else:
+        away = (np.roll(at, -1, axis=1) - at)[..., 1:]
+        beside = [radius + np.roll(radius, -1) - np.linalg.norm(away, axis=-1)]
     return np.stack(
         [
             model.inner.radius + radius - np.hypot(in_inner[..., 1], in_inner[..., 2]),
             np.hypot(in_outer[..., 1], in_outer[..., 2]) + radius - model.outer.radius,
-            ahead + radius - walls[:, 0],
-            -ahead + radius - walls[:, 1],
-            seen[..., 0] + end - walls[:, 2],
-            -seen[..., 0] + end - walls[:, 3],
+            *beside,
             *ribs,
         ],
         axis=-1,
     )
+
+
+def _in_walls(model: RollerModel, q: dict[str, np.ndarray], at: np.ndarray) -> list[np.ndarray]:
+    """Depths (n, Z) of rollers at places (n, Z, 3) in the four faces of their pockets."""
+    radius, end, (cos, sin) = model.bodies.radius, model.pocket.half_roller, model.pocket.azimuth.T
+    frames = Rotation.from_quat(q["quaternion"], scalar_first=True).as_matrix()
+    seen = np.einsum("nzc,ncd->nzd", at - q["cage"][:, None], frames)
+    ahead = seen[..., 2] * cos - seen[..., 1] * sin
+    walls = np.repeat(model.pocket.half, 2) + np.maximum(model.pocket.offset.max(axis=2), 0.0)
+    return [
+        ahead + radius - walls[:, 0], -ahead + radius - walls[:, 1],
+        seen[..., 0] + end - walls[:, 2], -seen[..., 0] + end - walls[:, 3],
+    ]  # fmt: skip
 
 
 RECORDING = Recording(coords=_coords, variables=_variables, overlaps=overlaps, spots=_spotted)

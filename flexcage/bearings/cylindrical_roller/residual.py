@@ -125,8 +125,9 @@ def set_bodies(y, d, mode):
     work, pose, at = fields(d.scratch), fields(d.pose), fields(d.places)
     q, u = y[: at.bodies_q], y[at.u : at.bodies_u]
     clear_sums(work.border, d, mode)
-    matrix_from_quaternion(array_from(y, at.cage_q + QUATERNION), work.A)
-    put(work.vec[CAGE_SPIN], turned(work.A, turn_of(array_from(y, at.cage_u))))
+    if at.cages > 0:
+        matrix_from_quaternion(array_from(y, at.cage_q + QUATERNION), work.A)
+        put(work.vec[CAGE_SPIN], turned(work.A, turn_of(array_from(y, at.cage_u))))
     set_axes(y, d)
     zero(work.wrenches)
     for i in range(at.elements):

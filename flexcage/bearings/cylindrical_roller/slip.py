@@ -11,6 +11,7 @@ from flexcage.core.errors import InputError
 from flexcage.results.metrics import (
     BearingNumbers,
     ElementSpeed,
+    carrier_speed,
     loaded_zone,
     rolling_sense,
     slip_of,
@@ -57,7 +58,7 @@ def slip_ratio(
         ideal = ds["inner_speed"] * unit.element_spin
     elif frame == "cage":
         ideal = ds["inner_speed"] * unit.element_spin_in_cage
-        spin = spin - ds["cage_omega"].sel(axis="x", drop=True)
+        spin = spin - carrier_speed(ds)
     else:
         raise InputError(f"Slip is taken in the frame 'inertial' or 'cage', not {frame!r}.")
     out = slip_of(ideal, spin)

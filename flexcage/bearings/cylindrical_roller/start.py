@@ -75,16 +75,16 @@ def rolling_velocities(model: RollerModel, layout: Layout, y: np.ndarray) -> np.
     qd["elements"][:, 2] = k.cage_speed
     qd["elements"][:, 5] = k.element_spin - k.cage_speed * np.cos(skew) * np.cos(tilt)
     u["inner"][3] = qd["inner"][5] = speed
-    u["omega"][0] = k.cage_speed
-    qd["quaternion"][1] = 0.5 * k.cage_speed
+    if layout.has_cage:
+        u["omega"][0], qd["quaternion"][1] = k.cage_speed, 0.5 * k.cage_speed
     return yd
 
 
 def standing_cage(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarray:
     """Velocities of pure rolling, but for the cage: nothing elastic holds its unbalance."""
     yd = rolling_velocities(model, layout, y)
-    layout.u(y)["omega"][:] = 0.0
-    layout.q(yd)["quaternion"][:] = 0.0
+    if layout.has_cage:
+        layout.u(y)["omega"][:], layout.q(yd)["quaternion"][:] = 0.0, 0.0
     return yd
 
 
@@ -104,13 +104,14 @@ def geometric_guess(model: RollerModel, layout: Layout) -> np.ndarray:
     Z = layout.elements
     q["elements"][:, 1] = model.outer.radius - model.bodies.radius
     q["elements"][:, 2] = 2.0 * np.pi * np.arange(Z) / Z
-    q["quaternion"][0] = 1.0
     ring, mount = model.inner_ring, model.outer_ring
     q["inner"][4] = ring.rest[U_TILT]
     if ring.free[0]:
         q["inner"][0] = _axial_place(model)
     q["elements"][:, 0] = _between_ribs(model, layout, y)
-    if ring.free[0]:
+    if layout.has_cage:
+        q["quaternion"][0] = 1.0
+    if layout.has_cage and ring.free[0]:
         q["cage"][0] = q["inner"][0] if _guided_by_inner(model) else q["elements"][0, 0]
     shift = float(mount.bore[CLEARANCE]) if mount.loose else 0.0
     q["outer"][1:3] = shift * model.bodies.load_direction  # a ring in its bore lies on the ground
@@ -208,7 +209,7 @@ class _Frictionless:
         self._evaluate(y, yd, TANGENT)
         roller, row = np.nonzero(held.rollers)
         tangent.Krr[roller, row, row] += _HOLD
-        row = at.cage_b + np.flatnonzero(held.cage)
+        row = at.cage_b + np.flatnonzero(held.cage)  # a cage that is not there is not held
         tangent.Kbb[row, row] += _HOLD
         if not assemble(alpha, self.data.model.bodies, at, tangent, self.data.matrix):
             raise RunFailed("the start's equilibrium has a singular matrix; is a body massless?")
@@ -316,8 +317,10 @@ def _measure(layout: Layout, r: np.ndarray, lever: float, held: Held, free: np.n
     u["inner"][3] = 0.0
     u["inner"][4:] /= lever
     u["outer"][3:] /= lever
-    u["omega"] /= 10.0 * lever
-    names = u if held.cage.any() else ("elements", "inner", "outer")  # nothing holds a free cage
+    names = ["elements", "inner", "outer"]
+    if held.cage.any():  # nothing holds a free cage
+        u["omega"] /= 10.0 * lever
+        names = list(u)
     return max(float(np.abs(u[k]).max()) for k in names if u[k].size)
 
 
@@ -338,8 +341,8 @@ def _equilibrate(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np
         r = system.residual(y, yd)
         rows = layout.u(r)
         rows["elements"][held.rollers] = 0.0
-        rows["cage"][held.cage[:3]] = 0.0
-        rows["omega"][held.cage[3:]] = 0.0
+        if held.cage.any():
+            rows["cage"][held.cage[:3]], rows["omega"][held.cage[3:]] = 0.0, 0.0
         size = _measure(layout, r, lever, held, free) / load
         if size < _SMALL:
             break
@@ -356,9 +359,10 @@ def _equilibrate(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np
         if len(loose):
             y[n_qu + loose] += step[n_qu + loose] * share
             layout.q(y)["elements"][:, 0] += _between_ribs(model, layout, y) - ribs
-            if _guided_by_inner(model):
+            if layout.has_cage and _guided_by_inner(model):
                 layout.q(y)["cage"][0] += dq["inner"][0] * share
-        layout.q(y)["quaternion"][:] /= np.linalg.norm(layout.q(y)["quaternion"])
+        if layout.has_cage:
+            layout.q(y)["quaternion"][:] /= np.linalg.norm(layout.q(y)["quaternion"])
         yd[:] = standing_cage(model, layout, y)
     return size
 

@@ -9,7 +9,13 @@ from flexcage.modes.basis import FACES
 from flexcage.results.registry import FORCE_BITS, MODAL_BITS, OwnVariables, sampled
 
 END_POINTS = (2, 7)  # of a roller's end on a side beam: across the band and along it
-_PARTS: Any = {"bits": FORCE_BITS, "together": 1, "sparse": True, "dtype": "float32"}
+_PARTS: Any = {
+    "bits": FORCE_BITS,
+    "together": 1,
+    "sparse": True,
+    "dtype": "float32",
+    "of_cage": True,
+}
 _BEAM, _SIDE = ("pocket", "crossbeam_face", "slice"), ("pocket", "side_face", "end_point")
 
 VARIABLES = OwnVariables(
@@ -41,7 +47,7 @@ VARIABLES = OwnVariables(
                 **_PARTS),
         sampled(
             "residual_coordinates", "1", "quasi-static residual coordinates of a pocket's faces",
-            "pocket", "residual", bits=FORCE_BITS, together=1, sparse=True,
+            "pocket", "residual", bits=FORCE_BITS, together=1, sparse=True, of_cage=True,
         ),
     ),
     labels={

@@ -18,6 +18,7 @@ import numpy as np
 
 from flexcage.core.errors import RunFailed
 from flexcage.geometry.bearing import Bearing
+from flexcage.system.bodies import bushing_stiffness
 from flexcage.system.spec import Mount
 from flexcage.system.statics.equilibrium import Posture, Problem, balance, tangent
 
@@ -26,7 +27,11 @@ _ITERATIONS = 30
 
 
 def compliance_of(mount: Mount, bearing: Bearing) -> np.ndarray | None:
-    """Compliance (5, 5) of the outer ring's seat in its housing; None for a rigid one."""
+    """Compliance (5, 5) of the outer ring's seat in its housing or bushing; None for a rigid one,
+    or one with clearance."""
+    if mount.kind == "bushing":
+        stiffness = bushing_stiffness(mount)
+        return np.diag(np.divide(1.0, stiffness, out=np.zeros(5), where=stiffness > 0.0))
     if not mount.body:
         return None
     from flexcage.system.seat import seat_compliance  # with readers of files, which few need
@@ -48,7 +53,7 @@ def balance_on_seat(problem: Problem, compliance: np.ndarray) -> Posture:
         if np.abs(step * problem.lever).max() <= _CLOSE * np.abs(outer * problem.lever).max():
             return replace(balance(replace(problem, held=problem.held - outer)), outer=outer)
     raise RunFailed(
-        f"no equilibrium was found on the seat of mount.body: after {_ITERATIONS} steps its "
+        f"no equilibrium was found on the seat of [mount]: after {_ITERATIONS} steps its "
         f"displacement still changes by {np.abs(step[:3]).max():.1e} m; is the housing far softer "
         "than the bearing?"
     )

@@ -66,7 +66,7 @@ def bearing_with(resistance: float, density: float) -> tuple[Case, Bearing]:
     })  # fmt: skip
     mesh = cage_mesh(case)
     found = build_bearing(case, mesh, None).data.model.cage.mass
-    given = case.cage.material.density * MASS / found
+    given = case.its_cage.material.density * MASS / found
     case = case.replace("cage.material.density", given)
     return case, build_bearing(case, mesh, None)
 

@@ -1,0 +1,132 @@
+"""Rollers of a full-complement bearing against the next ones: forces, report and tangent.
+
+They take the place of the pockets: the residual calls ``touch_next`` where it calls
+``pockets.roller_pockets`` of a bearing with a cage. What the tangent leaves out is how one roller
+of a pair follows the other, as with balls (``bearings.ball.neighbours``).
+"""
+
+from __future__ import annotations
+
+from math import cos, pi, sin
+from typing import TYPE_CHECKING
+
+from flexcage.contacts import laws as contact_laws
+from flexcage.contacts.beside import seen
+from flexcage.contacts.evaluation import RACE_LAW, RACE_RUBS, REPORT, TANGENT
+from flexcage.contacts.laws import EXPONENT
+from flexcage.contacts.roller_beside import (
+    RollersBeside,
+    TwoRollers,
+    approach_of,
+    push_both,
+    slopes_of,
+    touch_roller,
+)
+from flexcage.contacts.slices import Laws, friction_power, stored_and_damped
+from flexcage.contacts.state import KEPT_AXES, KEPT_V, KEPT_W
+from flexcage.core.jit import fields, outlined, part, zero
+from flexcage.core.vectors import minus, row, times, xyz
+from flexcage.system.data import IN_CONTACTS, NEIGHBOUR_DAMPING, NEIGHBOUR_FRICTION, POCKET
+from flexcage.system.layout import of_element
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
+    from flexcage.contacts.spec import Contacts
+
+_LINE = 10.0 / 9.0  # exponent of ``iso_line_stiffness``
+NEXT_ROLLER = POCKET  # place of a roller's contact with the next one
+
+
+def rollers_beside(
+    bearing: RollerBearing, contacts: Contacts, s: np.ndarray, drop: np.ndarray
+) -> RollersBeside:
+    """How rollers touch each other, by the laws of the races; their approach under a force is that
+    of a line contact, whatever its curvature (A. Palmgren, see ``laws.iso_line_stiffness``)."""
+    steel = contact_laws.iso_line_stiffness(
+        bearing.effective_length, bearing.material.plane_strain_modulus
+    )
+    return RollersBeside(
+        s=s,
+        drop=drop,
+        normal=contact_laws.normal_parameters(contacts.race.normal, steel / len(s), _LINE),
+        friction=contact_laws.friction_parameters(contacts.race.friction),
+    )
+
+
+def touch_next(t, y, yd, d, law, out, mode):
+    """Forces of rollers on their neighbours into ``Scratch.wrenches``; in mode TANGENT their
+    slopes, each over the own roller's motion. Arguments are those of ``residual.evaluate``."""
+    at = fields(d.places)
+    for i in range(at.elements):
+        j = i + 1 if i + 1 < at.elements else 0
+        _touch(i, j, y[: at.bodies_q], d, law, mode)
+
+
+@part
+def _pair(i, j, q, d):
+    """Rollers i and j in the frame of i, and how far j is ahead [rad]; roller 0 is next to the last
+    one."""
+    radius, poses = fields(d.bodies).radius, fields(d.scratch).poses
+    qi, qj = q[of_element(i)], q[of_element(j)]
+    ahead = qj[2] - qi[2] + (0.0 if j > i else 2.0 * pi)
+    c, s, own, other = cos(ahead), sin(ahead), poses[i], poses[j]
+    place = minus(seen(c, s, (qj[0], qj[1], 0.0)), (qi[0], qi[1], 0.0))
+    two = TwoRollers(
+        (radius[i], radius[j]), row(own, KEPT_AXES), seen(c, s, row(other, KEPT_AXES)), place,
+        minus(row(own, KEPT_V), seen(c, s, row(other, KEPT_V))), row(own, KEPT_W),
+        seen(c, s, row(other, KEPT_W)), fields(d.memory).pocket[i, 0],
+    )  # fmt: skip
+    return two, ahead
+
+
+@outlined
+def _touch(i, j, q, d, law, mode):
+    """Rollers i and j."""
+    sl, beside, rep, work = (
+        fields(d.slices).row[0],
+        fields(d.beside),
+        fields(d.report),
+        fields(d.scratch),
+    )
+    two, ahead = _pair(i, j, q, d)
+    depth, speed = approach_of(two, beside, sl)
+    if mode >= REPORT:
+        rep.approach[i, NEXT_ROLLER], rep.pocket_normal[i, 0] = speed, 0.0
+    if depth <= 0.0:
+        return
+    touch_roller(two, beside, Laws(law[RACE_LAW], law[RACE_RUBS]), sl)
+    c, s, back = cos(ahead), sin(ahead), work.T6[0, 0]
+    zero(back)
+    force = push_both(two, beside, sl, work.wrenches[i], back)
+    for k in range(2):  # force and moment, in the frame of j
+        f = seen(c, -s, xyz(back[3 * k :]))
+        for n in range(3):
+            work.wrenches[j, 3 * k + n] += f[n]
+    if mode == TANGENT:
+        _slopes(i, j, two, ahead, d)
+    elif mode >= REPORT:
+        span = (0, beside.s.shape[0])
+        energy, damped = stored_and_damped(span, sl, beside.normal[EXPONENT])
+        rep.pocket_normal[i, 0] = force
+        rep.contact[i, NEXT_ROLLER] = 1 if force > 0.0 else 0
+        rep.energy[IN_CONTACTS] += energy
+        rep.power[NEIGHBOUR_DAMPING] += damped
+        rep.power[NEIGHBOUR_FRICTION] += friction_power(span, sl)
+
+
+@part
+def _slopes(i, j, two, ahead, d):
+    """Slopes of both rollers' wrenches, each over its own motion."""
+    beside, sl, tan = fields(d.beside), fields(d.slices).row[0], fields(d.tangent)
+    slopes_of(two, beside, sl, fields(d.pair).W, tan.Krr[i], tan.Crr[i])
+    c, s = cos(ahead), sin(ahead)
+    for k in range(beside.s.shape[0]):
+        sl.t2[k] = -sl.t2[k]  # along the axis the other slides the other way
+    other = TwoRollers(
+        (two.radii[1], two.radii[0]), seen(c, -s, two.other_axis), seen(c, -s, two.axis),
+        seen(c, -s, times(-1.0, two.place)), seen(c, -s, times(-1.0, two.velocity)),
+        seen(c, -s, two.other_spin), seen(c, -s, two.spin), two.onset,
+    )  # fmt: skip
+    slopes_of(other, beside, sl, fields(d.pair).W, tan.Krr[j], tan.Crr[j])
