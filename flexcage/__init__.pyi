@@ -15,7 +15,7 @@ from flexcage.core.errors import FlexcageError as FlexcageError
 from flexcage.core.errors import InputError as InputError
 from flexcage.core.errors import RunFailed as RunFailed
 from flexcage.geometry.kinematics import epicyclic as epicyclic
-from flexcage.results.instrument import load_readings as load_readings
+from flexcage.results.rig_file import load_readings as load_readings
 from flexcage.simulate import Run as Run
 from flexcage.simulate import load_run as load_run
 from flexcage.simulate import simulate as simulate

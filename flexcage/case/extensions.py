@@ -46,7 +46,7 @@ def load_extension(source: str | Path) -> None:
     Loading the same one again does nothing. Raises InputError if it is not there, or fails.
     """
     text = str(source)
-    is_file = text.endswith((".py", ".toml")) or isinstance(source, Path)
+    is_file = text.endswith((".py", ".toml")) or isinstance(source, Path) or Path(text).is_file()
     if is_file:
         path = path_of(source, "use").resolve()
         text = str(path)
@@ -58,6 +58,13 @@ def load_extension(source: str | Path) -> None:
     code = [path] if is_file and text.endswith(".py") else [] if is_file else _code_of(text)
     users_files.remember(code)
     try:
+        if is_file and not text.endswith((".py", ".toml")):
+            raise InputError(
+                f"'{source}' is no file that can be loaded: .py (your own laws ...) or .toml (a "
+                "preset).",
+                where="use",
+                value=text,
+            )
         if text.endswith(".toml"):
             register_preset(path)
         elif is_file:
@@ -66,8 +73,16 @@ def load_extension(source: str | Path) -> None:
             importlib.import_module(text)
     except BaseException as exc:
         users_files.forget(code)
-        if isinstance(exc, FlexcageError) or not isinstance(exc, Exception):
+        ended = isinstance(exc, SystemExit)
+        if isinstance(exc, FlexcageError) or not (ended or isinstance(exc, Exception)):
             raise
+        if ended:
+            raise InputError(
+                f"'{source}' ends the program as it is loaded (sys.exit); put what it runs by "
+                "itself under if __name__ == '__main__'.",
+                where="use",
+                value=text,
+            ) from exc
         raise InputError(
             f"'{source}' cannot be loaded: {type(exc).__name__}: {exc}.", where="use", value=text
         ) from exc

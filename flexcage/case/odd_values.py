@@ -3,6 +3,7 @@ computed as they are, and questioned once each."""
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import degrees, radians
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from flexcage.core.units import describe
 from flexcage.geometry.materials import MATERIALS, Material
+from flexcage.system.spec import CageSpeed
 
 if TYPE_CHECKING:
     from flexcage.case.static import StaticCase
@@ -50,6 +52,19 @@ _RINGS = (Usual("youngs_modulus", "GPa", 1e9, 1.2e12, "polymer rings have 2 GPa,
                 _THOUSANDS), *_OF_SOLIDS[1:3])  # fmt: skip
 
 
+_OF_LUBRICANTS = (
+    Usual("viscosity", "mPa*s", 1e-4, 10.0, "thin fuels have 1 mPa*s, heavy oils 1000 mPa*s",
+          _THOUSANDS),
+    Usual("pressure_coefficient", "1/GPa", 0.3e-9, 1e-7, "water has 0.5 1/GPa, oils 10 to 35 1/GPa",
+          _THOUSANDS),
+    Usual("density", "kg/m^3", 50.0, 3000.0, "oils have 800 to 1000 kg/m^3", _THOUSANDS),
+)  # fmt: skip
+_COEFFICIENTS = ("static", "dynamic", "peak", "high_speed", "limit")
+_MOST_FRICTION = 1.5  # of dry metals in vacuum; percents are beyond
+_TWO = ("step_coulomb", "decay_coulomb")  # friction laws that fall from rest to sliding
+_EARTH = (9.7, 9.9)  # m/s^2
+
+
 def odd_values(case: StaticCase) -> Iterator[Said]:
     """Keys and sentences of warnings on the values of a case."""
     for where, material, usual in _bodies(case):
@@ -57,6 +72,10 @@ def odd_values(case: StaticCase) -> Iterator[Said]:
     yield from ((ODD, text) for text in _rough_races(case))
     yield from ((ODD, text) for text in _thin_cage(case))
     yield from ((ODD, text) for text in _flat_contact(case))
+    yield from ((ODD, text) for text in _odd_lubricant(case))
+    yield from ((ODD, text) for text in _odd_friction(case))
+    yield from ((ODD, text) for text in _odd_gravity(case))
+    yield from ((ODD, text) for text in _cage_at_rest(case))
     yield from _of_other_steel(case)
 
 
@@ -96,10 +115,59 @@ def _bodies(case: Any) -> Iterator[tuple[str, Material, tuple[Usual, ...]]]:
         yield "cage.material", cage.material, _OF_SOLIDS
 
 
-def _odd_constants(where: str, material: Material, constants: tuple[Usual, ...]) -> Iterator[str]:
+def _odd_lubricant(case: StaticCase) -> Iterator[str]:
+    yield from _odd_constants("lubricant", case.lubricant, _OF_LUBRICANTS, "any lubricant")
+
+
+def _odd_friction(case: StaticCase) -> Iterator[str]:
+    """Coefficients in percent, and those of rest and sliding exchanged, where a law reads them."""
+    for place in sorted(case.bearing.places):
+        law = getattr(case.contacts, place).friction
+        where = f"contacts.{place}.friction"
+        coefficients = [f for f in dataclasses.fields(law) if f.name in _COEFFICIENTS]
+        read = {
+            f.name: getattr(law, f.name)
+            for f in coefficients
+            if law.law in (f.metadata.get("of") or (law.law,))
+        }
+        for name, value in read.items():
+            if value > _MOST_FRICTION:
+                yield (
+                    f"{where}.{name} is {value:.6g}, above any coefficient of friction of bearings "
+                    f"(dry metals have up to 1); is {value / 100.0:.6g} meant?"
+                )
+        if law.law in _TWO and law.static < law.dynamic <= _MOST_FRICTION:
+            yield (
+                f"{where}.static is {law.static:.6g}, below its dynamic, {law.dynamic:.6g}, where "
+                "friction is larger at rest than in sliding; are they exchanged?"
+            )
+
+
+def _odd_gravity(case: StaticCase) -> Iterator[str]:
+    gravity = case.load.gravity
+    if _EARTH[0] < 1e-3 * gravity < _EARTH[1]:
+        yield (
+            f"load.gravity is {describe(gravity, 'm/s^2')}, a thousand times the Earth's; is "
+            f"{describe(1e-3 * gravity, 'm/s^2')} meant?"
+        )
+
+
+def _cage_at_rest(case: Any) -> Iterator[str]:
+    """A constraint on the cage's speed that names none, and so holds it still."""
+    for i, held in enumerate(getattr(case, "constraints", ())):
+        if isinstance(held, CageSpeed) and not (held.speed or held.ratio):
+            yield (
+                f"constraints.{i} (cage_speed) has neither speed nor ratio, and holds the cage "
+                "still; is a speed meant?"
+            )
+
+
+def _odd_constants(
+    where: str, material: Any, constants: tuple[Usual, ...], of: str = "any solid of bearings"
+) -> Iterator[str]:
     for usual in constants:
         value = getattr(material, usual.name)
-        if usual.least <= value <= usual.most or value == float("inf"):
+        if value == 0.0 or usual.least <= value <= usual.most or value == float("inf"):
             continue
         probably = next(
             (value * f for f in usual.slips if usual.least <= value * f <= usual.most), None
@@ -107,7 +175,7 @@ def _odd_constants(where: str, material: Material, constants: tuple[Usual, ...])
         meant = f"; is {_text(probably, usual.unit)} meant?" if probably is not None else "."
         yield (
             f"{where}.{usual.name} is {_text(value, usual.unit)}, "
-            f"{'below' if value < usual.least else 'above'} that of any solid of bearings "
+            f"{'below' if value < usual.least else 'above'} that of {of} "
             f"({usual.ends}){meant}"
         )
 

@@ -6,6 +6,7 @@ data folder is one more preset, and ``register_preset`` adds a user's own file.
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -14,7 +15,14 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from flexcage.core.binding import Binder, expect, near_names, path_of, told_elsewhere
+from flexcage.core.binding import (
+    Binder,
+    expect,
+    near_names,
+    path_of,
+    told_elsewhere,
+    unknown_key,
+)
 from flexcage.core.errors import InputError
 from flexcage.core.registry import add, check_free
 from flexcage.core.texts import text_of
@@ -29,6 +37,7 @@ from flexcage.geometry.other_kinds import kind_of
 NAMED: Mapping[type, Mapping[str, Any]] = MappingProxyType({Material: MATERIALS})
 
 _META = ("preset", "assumptions", "sources")
+_ABOUT = ("name", "title", "static_rating", "dynamic_rating", "mass")  # keys of [preset]
 _ALIKE = 0.65  # of a name and a preset's, from which on the preset may be meant
 _ADDED: dict[str, Preset] = {}  # by register_preset
 
@@ -146,6 +155,7 @@ def register_preset(path: str | Path) -> Preset:
         raise InputError(f"The preset '{path}' cannot be read: {reason}.", where="preset") from exc
     table = read_toml(text, f"The preset '{path}'", where="preset")
     try:
+        _check_keys(table)
         preset = _preset(table)
         check_free(dict.fromkeys(_shipped()), preset.name, what="preset")
         preset.bearing.check(preset.cage)
@@ -153,6 +163,17 @@ def register_preset(path: str | Path) -> Preset:
     except InputError as exc:
         raise InputError(f"In preset '{path}': {exc}", where=exc.where, value=exc.value) from exc
     return add(_ADDED, preset.name, preset, what="preset")
+
+
+def _check_keys(data: dict[str, Any]) -> None:
+    """InputError for a table that no preset has, and for what [preset] does not say."""
+    from flexcage.case.sections import CaseSections  # late: cases need presets
+
+    sections = [field.name for field in dataclasses.fields(CaseSections)]
+    known = {"": [*_META, *sections], "preset": _ABOUT}
+    for where, table in (("", data), ("preset", data.get("preset", {}))):
+        if unknown := [key for key in table if key not in known[where]]:
+            raise unknown_key(unknown[0], known[where], where)
 
 
 def _preset(data: dict[str, Any]) -> Preset:

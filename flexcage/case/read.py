@@ -39,6 +39,8 @@ def study_or_map(table: Mapping[str, Any]) -> tuple[str, str]:
 def _text(path: Path) -> str:
     try:
         return text_of(path, "a case is TOML", where="case")
+    except InputError:
+        raise
     except FileNotFoundError:
         sentence = f"{no_file('case file', path, ('.toml',))}."
     except IsADirectoryError:

@@ -27,12 +27,13 @@ from numba import types
 from scipy.optimize import brentq
 
 from flexcage.contacts import spec as specs
+from flexcage.contacts.own_laws import check_friction, check_normal
 from flexcage.contacts.spec import DecayFriction, EhlTraction, FrictionLaw, Lubricant, NormalLaw
 from flexcage.core.elementary import exponentials, powers, product_of_powers
 from flexcage.core.errors import InputError
 from flexcage.core.jit import kernel, kernel_of, why_not_compiled
 from flexcage.core.kernel_values import KernelType
-from flexcage.core.registry import add, check_free
+from flexcage.core.registry import add, check_free, source_of
 from flexcage.geometry.hertz import PointContact
 from flexcage.geometry.materials import MATERIALS
 
@@ -355,23 +356,25 @@ def _compiled(law: Any, signature: Any, what: str) -> Any:
 def friction_parameters(law: FrictionLaw) -> np.ndarray:
     """Parameter vector (N_FRICTION,) of a friction law."""
     own = FRICTION_PARAMETERS.get(law.law, _coulomb_parameters)(law)
-    return _vector(own, N_FRICTION, f"friction law '{law.law}'")
+    p = _vector(own, N_FRICTION, f"friction law '{law.law}'")
+    if source_of(law.law):
+        check_friction(FRICTION_LAWS[law.law], law.law, tuple(p[: len(own)]))
+    return p
 
 
 def normal_parameters(law: NormalLaw, stiffness: float, exponent: float) -> np.ndarray:
     """Parameter vector (N_NORMAL,) of one slice's normal law; ``stiffness`` [N/m^exponent]."""
     build = NORMAL_PARAMETERS.get(law.law, _elastic_parameters)
-    p = _vector(
-        build(law, stiffness * law.stiffness_factor, exponent),
-        N_NORMAL,
-        f"normal law '{law.law}'",
-    )
+    own = build(law, stiffness * law.stiffness_factor, exponent)
+    p = _vector(own, N_NORMAL, f"normal law '{law.law}'")
     if p[STIFFNESS] < 0.0 or p[EXPONENT] < 1.0:
         raise InputError(
             f"The parameters of normal law '{law.law}' begin with {p[:2]}, but must be a stiffness "
             "of 0 or more and an exponent of 1 or more.",
             where=law.law,
         )
+    if source_of(law.law):
+        check_normal(NORMAL_LAWS[law.law], law.law, tuple(p[: len(own)]))
     return p
 
 

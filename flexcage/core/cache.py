@@ -24,7 +24,8 @@ from flexcage.core.trust import distrusted, make_private
 
 logger = logging.getLogger(__name__)
 
-_DEFAULT_LIMIT_GB = 4.0
+_LIMIT = "FLEXCAGE_CACHE_LIMIT_GB"
+_DEFAULT_LIMIT_GB, _MOST_GB = 4.0, 1e9
 _ROOM = 1_000_000  # bytes that a folder must have room for, or it counts as full
 
 Arrays = dict[str, np.ndarray]
@@ -76,12 +77,22 @@ def trusted(folder: Path) -> bool:
 
 
 def cache_limit() -> int:
-    """Limit of the array cache [bytes]; FLEXCAGE_CACHE_LIMIT_GB changes it."""
-    text = os.environ.get("FLEXCAGE_CACHE_LIMIT_GB", "")
+    """Limit of the array cache [bytes]; FLEXCAGE_CACHE_LIMIT_GB changes it. Says once if that is no
+    number of GB."""
+    text = os.environ.get(_LIMIT, "")
     try:
-        return int(float(text or _DEFAULT_LIMIT_GB) * 1e9)
+        size = float(text or _DEFAULT_LIMIT_GB)
     except ValueError:
-        return int(_DEFAULT_LIMIT_GB * 1e9)
+        size = -1.0
+    if not 0.0 <= size < _MOST_GB:
+        size = _DEFAULT_LIMIT_GB
+        if (place := Path(_LIMIT)) not in _told:
+            _told.add(place)
+            logger.warning(
+                "%s is '%s', but should be a number of GB that is not negative, as 10; %g GB are "
+                "taken", _LIMIT, text, size,
+            )  # fmt: skip
+    return int(size * 1e9)
 
 
 def cached_arrays(

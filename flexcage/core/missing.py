@@ -7,6 +7,21 @@ from pathlib import Path
 
 from flexcage.core.binding import near_names
 
+_LFS = b"version https://git-lfs"
+
+
+#: Of a file that a clone of a repository has not fetched.
+POINTER = "it is a pointer of Git LFS; 'git lfs pull' in its folder brings the file"
+
+
+def is_pointer(path: Path) -> bool:
+    """Does a pointer of Git LFS stand in the place of a file?"""
+    try:
+        with path.open("rb") as file:
+            return file.read(len(_LFS)) == _LFS
+    except OSError:
+        return False
+
 
 def no_file(what: str, path: Path, endings: Iterable[str] = ()) -> str:
     """A sentence without its full stop: there is no ``what`` ("case file") at a path. It names the

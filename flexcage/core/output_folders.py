@@ -10,13 +10,25 @@ from flexcage.core.locks import LOCK
 from flexcage.core.missing import no_folder
 
 RESULTS = "results.zarr"
+#: Endings that no folder of output has: whoever gives one wants a file.
+_OF_FILES = frozenset(
+    ".csv .gif .html .inp .json .mat .msh .mtx .nc .npz .op4 .parquet .pch .pdf .png .pvd .svg "
+    ".toml .txt .vtu .xlsx .zarr .zip".split()
+)
 _NAMED = 4  # runs that a sentence names
 
 
 def check_no_file(path: Path) -> None:
-    """InputError if what is to be a folder for output is a file."""
+    """InputError if what is to be a folder for output is a file, or is named as one."""
     if path.exists() and not path.is_dir():
         raise InputError(f"'{path}' is a file; name a folder for the output.", where="out")
+    if not path.exists() and path.suffix.lower() in _OF_FILES:
+        raise InputError(
+            f"'{path}' is named as a file; name a folder for the output, as '{path.with_suffix('')}"
+            "'.",
+            where="out",
+            value=str(path),
+        )
 
 
 def check_run(path: Path) -> None:

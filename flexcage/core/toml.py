@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+from collections.abc import Callable
 from typing import Any
 
 from flexcage.core.errors import InputError
@@ -11,6 +12,23 @@ from flexcage.core.errors import InputError
 _ESCAPE = re.compile(r"backslash|[Ee]scape|hex")  # of tomllib's reasons
 _PLACE = re.compile(r"at line (\d+)")
 _BARE = re.compile(r"\s*([\w.]+)\s*=\s*([-+.\d]+\s*[^\W\d][^\"'#]*)(?:#.*)?$")  # name = 1 kN
+_VALUE = r"""(?:"[^"]*"|'[^']*'|[-+.\w]+|\[[^\]]*\])"""
+#: What a line is that TOML does not read, and what to write.
+_SLIPS: tuple[tuple[re.Pattern, Callable[[re.Match], str]], ...] = (
+    (re.compile(r"[^#]*[\u00a0\u2007\u2009\u202f]"),
+     lambda m: "; the line has a blank of another kind (a no-break space): write plain blanks"),
+    (re.compile(r"\s*//"), lambda m: "; a comment begins with #"),
+    (re.compile(r"\s*[{<]"), lambda m: "; TOML is no JSON or XML: [load] begins a section there, "
+     'and radial = "1 kN" gives a value'),
+    (re.compile(rf"\s*([\w.]+)\s*:\s*({_VALUE}.*)?$"), lambda m: f"; '=' stands between a name and "
+     f"its value: {m[1]} = {m[2]}" if m[2] else "; a section begins in brackets: " f"[{m[1]}]"),
+    (re.compile(rf"\s*[\w.]+\s*=\s*{_VALUE}\s*[,;]\s*(?:#.*)?$"),
+     lambda m: "; nothing stands after a value: leave out the mark at the line's end"),
+    (re.compile(rf"\s*[\w.]+\s*=\s*{_VALUE}[\s,;]+([\w.]+\s*=.*)$"),
+     lambda m: f"; each value has a line of its own: begin a new one at {m[1].strip()}"),
+    (re.compile(r"\s*([\w.]+)\s*=\s*([^\W\d][^\"'#=\[\]{}]*)(?:#.*)?$"),
+     lambda m: f'; text stands in quotes: {m[1]} = "{m[2].strip()}"'),
+)  # fmt: skip
 _CURLY = "\u201c\u201d\u201e\u00ab\u00bb\u2018\u2019"
 _DEEPEST = 20  # tables and lists in one another; a case has five
 
@@ -56,7 +74,7 @@ def _remedy(reason: str, text: str) -> str:
         return f'; a value with a unit stands in quotes: {bare[1]} = "{bare[2].strip()}"'
     if stopped.count('"') % 2 or stopped.count("'") % 2:
         return "; a quote is missing at the end of a value"
-    return ""
+    return next((said(found) for slip, said in _SLIPS if (found := slip.match(stopped))), "")
 
 
 def _lines(text: str) -> list[str]:

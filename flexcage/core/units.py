@@ -101,6 +101,12 @@ _LIMITS: dict[str, tuple[float, float]] = {
 }
 _DECIMAL_COMMA = re.compile(r"\s*[+-]?\d+,\d+\s*\D")
 _THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2},\d{3}(?!\d)")
+# thousands in groups, as languages mark them: one mark throughout, and another for decimals. Lone
+# points and commas may be decimal marks
+_GROUPED = re.compile(
+    r"\s*([+-]?\d{1,3})(?:(['’_ \u00a0\u2009\u202f])((?:\d{3}\2)*\d{3})(?:[.,](\d+))?"
+    r"|([.,])((?:\d{3}\5)*\d{3})(?!\5)[.,](\d+)|([.,])((?:\d{3}\8)+\d{3}))(?![\d.,])"
+)
 _NUMBER = re.compile(
     r"\s*([+-]?(?:\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?|inf))\s*(.*?)\s*$"
 )
@@ -167,6 +173,8 @@ def parse(value: object, unit: str, *, where: str = "value") -> float:
     """
     if isinstance(value, (int, float)) and not isinstance(value, bool) and value == value:
         raise _no_unit(value, unit, where)
+    if isinstance(value, str) and (groups := _GROUPED.match(value)):
+        raise _with_groups(value, groups, where)
     if isinstance(value, str) and _DECIMAL_COMMA.match(value):
         raise _with_comma(value, where)
     parts = split(value) if isinstance(value, str) else None
@@ -202,6 +210,21 @@ def parse(value: object, unit: str, *, where: str = "value") -> float:
             value=value,
         )
     return found
+
+
+def _with_groups(value: str, found: re.Match, where: str) -> InputError:
+    """Error for a number whose thousands are in groups."""
+    first, *rest = found.groups(default="")
+    digits = first + re.sub(r"\D", "", rest[1] + rest[4] + rest[7])
+    decimals = rest[2] or rest[5]
+    plain = f"{digits}.{decimals}" if decimals else digits
+    text = f"{plain} {value[found.end() :].strip()}".strip()
+    return InputError(
+        f"{where} is '{value}'; write thousands without marks, and decimals with a point: "
+        f"'{text}'.",
+        where=where,
+        value=value,
+    )
 
 
 def _with_comma(value: str, where: str) -> InputError:

@@ -10,7 +10,9 @@ contacts, so that the ball spins alike on both races, neither of which controls 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import cos, pi
+from math import cos, pi, radians
+
+from flexcage.core.errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,9 +76,10 @@ def epicyclic(
 
     ``outer_race_passing`` and ``inner_race_passing`` are BPFO and BPFI, ``cage_frequency`` FTF,
     ``element_frequency`` BSF (one turn of the element relative to the cage; a defect on it strikes
-    at twice that).
+    at twice that). Raises InputError for sizes and angles that no bearing has.
     """
     angles = contact_angle if isinstance(contact_angle, tuple) else (contact_angle,) * 2
+    _check_sizes(element_diameter, pitch_diameter, element_count, angles)
     shares = rolling_shares(element_diameter / pitch_diameter, angles)
     cage = shares.orbit * inner_speed + (1.0 - shares.orbit) * outer_speed
     in_cage = -shares.spin * (inner_speed - outer_speed)
@@ -90,3 +93,22 @@ def epicyclic(
         cage_frequency=abs(cage) * turns,
         element_frequency=abs(in_cage) * turns,
     )
+
+
+def _check_sizes(element: float, pitch: float, count: int, angles: tuple[float, float]) -> None:
+    """InputError for elements that are larger than their circle, and for angles in degrees."""
+    if not 0.0 < element < pitch or count < 1:
+        raise InputError(
+            f"{count} elements with a diameter of {element:g} on a pitch circle of {pitch:g} are "
+            "no bearing's; the circle is the larger one, in the same unit.",
+            where="element_diameter",
+            value=element,
+        )
+    wide = [angle for angle in angles if abs(angle) > 0.5 * pi]
+    if wide:
+        raise InputError(
+            f"contact_angle is {wide[0]:g} rad, but must be between -pi/2 and pi/2; is "
+            f"{wide[0]:g} deg meant, which is {radians(wide[0]):.4g} rad?",
+            where="contact_angle",
+            value=wide[0],
+        )

@@ -27,7 +27,7 @@ import numpy as np
 
 from flexcage.core.binding import path_of
 from flexcage.core.errors import FlexcageError, InputError, unwritable
-from flexcage.core.missing import no_file
+from flexcage.core.missing import POINTER, is_pointer, no_file
 from flexcage.core.writing import written
 from flexcage.mesh.cage_mesh import (
     CageMesh,
@@ -200,6 +200,7 @@ def _read_raw(path: Path) -> RawMesh:
         raise InputError(f"{path}: {error}", where="mesh.file", value=str(path)) from error
     except (Exception, SystemExit) as error:  # readers raise all kinds of errors on broken files
         reason = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
+        reason = POINTER if is_pointer(path) else reason
         raise InputError(
             f"{path} cannot be read as a mesh: it is empty, cut short, or not what its name says "
             f"({reason})",

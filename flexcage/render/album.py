@@ -7,6 +7,7 @@ the cage, and fixes the range of stress and the factor of deformation, which els
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -151,9 +152,14 @@ def check_names(only: Sequence[str], known: Sequence[str]) -> None:
     """InputError for a picture that a run has not."""
     for name in only:
         if name not in known:
+            parts = [part for part in re.split("[,; ]+", name) if part in known]
+            near = (
+                f"name each by itself: {' '.join(parts)}; "
+                if len(parts) > 1
+                else _near(name, known)
+            )
             raise InputError(
-                f"The run has no picture '{name}'; {_near(name, known)}its pictures are "
-                f"{', '.join(known)}.",
+                f"The run has no picture '{name}'; {near}its pictures are {', '.join(known)}.",
                 where="only",
                 value=name,
             )
@@ -185,7 +191,8 @@ def draw_album(
     format: str = "png",
     progress: Callable[..., Any] = Silent,
 ) -> list[Path]:
-    """Draw all pictures into ``folder``, or ``only`` those of these names; their paths.
+    """Draw all pictures into ``folder``, or ``only`` those of these names, and animations if they
+    are asked for; their paths.
 
     Curves are drawn in ``format`` ("svg" and "pdf" are vector graphics), scenes as .png.
     ``progress`` is a context like ``core.progress.Progress``.
@@ -198,9 +205,9 @@ def draw_album(
     for name, (draw, needs_stress) in PICTURES.items():
         if scene.stress is not None or not needs_stress:
             drawings.append(Drawing(name, "png", partial(_draw_own, name, draw, scene)))
+    drawings = [drawing for drawing in drawings if not only or drawing.name in only]
     if animate:
         drawings += _animations(scene, look)
-    drawings = [drawing for drawing in drawings if not only or drawing.name in only]
     paths: list[Path] = []
     with progress(len(drawings), "pictures") as bar, few_collections():
         for drawing in drawings:

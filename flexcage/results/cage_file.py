@@ -33,6 +33,7 @@ import numpy as np
 from flexcage.core.arrays import SPARSE, sparse_matrix
 from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
+from flexcage.core.missing import POINTER, is_pointer
 from flexcage.core.reading import json_of, table_of
 from flexcage.core.writing import check_name, check_own, move_into_place
 from flexcage.mesh.cage_mesh import CageMesh
@@ -139,7 +140,7 @@ def read_cage(path: Path) -> CageRecord:
     """The record in a file; InputError if it is none, of another format, damaged, or changed."""
     check_own(path)
     if not zipfile.is_zipfile(path):
-        raise _unreadable(path, "it was cut short or changed")
+        raise _unreadable(path, POINTER if is_pointer(path) else "it was cut short or changed")
     try:
         root, stored = read_zip(path)
         found = root.get("flexcage_cage")

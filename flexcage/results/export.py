@@ -188,6 +188,11 @@ def check_there(name: str, known: Iterable[Any]) -> None:
         if VARIABLES[name].of_cage and "cage_position" not in known:
             hint = "the run's bearing has no cage"
         hint += f" ({VARIABLES[name].long_name})"
+    parts = [part for part in re.split(r"[\[,; ]+", name) if part in known]
+    if "[" in name and parts:
+        hint = f"'{parts[0]}' has a column of each of its labels; name it without brackets"
+    elif len(parts) > 1:
+        hint = f"name each by itself: {' '.join(parts)}"
     raise InputError(
         f"The dataset has no variable {name!r}: {hint}.", where="variables", value=name
     )

@@ -10,36 +10,32 @@ the cage that shows just these readings.
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from math import cos, pi, sin
-from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from flexcage.core.binding import path_of
 from flexcage.core.errors import InputError
-from flexcage.core.texts import text_of
 from flexcage.core.units import mm
 from flexcage.results.metrics import of_cage
+from flexcage.results.rig_file import CHANNELS, FARTHEST
 
 if TYPE_CHECKING:
     import xarray
 
 ITERATIONS = 20  # of the inversion; it gains five digits in each
-CHANNELS = ("Y", "Z", "X1", "X2", "X3")
-_FARTHEST = 10.0  # mm, that a cage moves: tens of times the clearance of large bearings' cages
-_OF_TIMES = re.compile(r"time|zeit\b|sec|(?-i:t)\b", re.IGNORECASE)
-TIME = "t"  # column of a rig's file that holds times in seconds
+_LARGEST = 10.0  # m, of a cage
+_LEAST_SPREAD = 0.05  # of the circle: 3 deg between lines through sensors
 
 
 @dataclass(frozen=True, kw_only=True)
 class LaserSetup:
     """Where the sensors are, and how good; lengths in metres, readings from a centred cage's.
 
-    Raises InputError for sensors that look past the cage.
+    Raises InputError for sensors that look past the cage, or stand where they cannot tell its tilt,
+    and for values that are no numbers in SI.
     """
 
     radius: float  # of the cage's outside
@@ -53,6 +49,7 @@ class LaserSetup:
     rate: float | None = None  # readings a second, Hz; None: as many as the run has samples
 
     def __post_init__(self) -> None:
+        self._check_numbers()
         if abs(self.plane) > self.half_width:
             raise InputError(
                 f"The radial sensors look past the cage: their plane is {mm(self.plane)} from its "
@@ -68,10 +65,58 @@ class LaserSetup:
                 value=self.circle,
             )
 
+    def _check_numbers(self) -> None:
+        """Refuse values that are no numbers, or of other units than SI."""
+        positive = ("radius", "half_width", "circle", "reach", "rate")
+        for name in (*positive, "plane", "repeatability", "resolution"):
+            value = getattr(self, name)
+            if value is None and name == "rate":
+                continue
+            number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
+            if not number or np.isnan(value) or value < 0.0 and name != "plane":
+                raise _of_setup(name, value, "a number in SI that is not negative")
+            if name in positive and not value > 0.0:
+                raise _of_setup(name, value, "greater than 0")
+            if name != "rate" and _LARGEST < abs(value) < np.inf:
+                raise _of_setup(name, value, f"a length in metres; is {mm(1e-3 * value)} meant?")
+        angles = np.asarray(self.angles)
+        if angles.shape != (3,) or angles.dtype.kind not in "iuf" or not np.isfinite(angles).all():
+            raise _of_setup("angles", self.angles, "three numbers in radians")
+        if np.abs(angles).max() > 2.0 * pi:
+            raise _of_setup("angles", self.angles, "in radians, up to 2 pi")
+        spots = self.spots - self.spots.mean(axis=0)
+        if np.linalg.svd(spots, compute_uv=False)[1] < _LEAST_SPREAD * self.circle:
+            raise _of_setup("angles", self.angles, "apart, so that the sensors tell every tilt")
+
     @property
     def spots(self) -> np.ndarray:
         """Places (3, 2) as (y, z) of the axial sensors."""
         return self.circle * np.array([(cos(a), sin(a)) for a in self.angles])
+
+
+def _of_setup(name: str, value: object, wanted: str) -> InputError:
+    shown = value if isinstance(value, (int, float, tuple)) else repr(value)
+    return InputError(f"{name} is {shown}, but should be {wanted}.", where=name, value=value)
+
+
+def _checked(values: Any) -> np.ndarray:
+    """Readings as an array (n, 5); InputError for other shapes, and for those in other units."""
+    array = np.asarray(values)
+    if array.ndim != 2 or array.shape[1] != len(CHANNELS) or array.dtype.kind not in "iuf":
+        raise InputError(
+            f"The readings are of shape {array.shape} ({array.dtype}), but should be numbers (n, "
+            f"5), in the order {', '.join(CHANNELS)}.",
+            where="values",
+        )
+    farthest = float(np.abs(array).max(initial=0.0, where=np.isfinite(array)))
+    if farthest > 1e-3 * FARTHEST:
+        raise InputError(
+            f"The readings go up to {farthest:g} m, but no cage moves farther than {FARTHEST:g} "
+            "mm in its clearance: give metres, from the reading of a centred cage.",
+            where="values",
+            value=farthest,
+        )
+    return array.astype(float)
 
 
 def readings(
@@ -127,7 +172,11 @@ def slopes(values: np.ndarray, setup: LaserSetup) -> tuple[np.ndarray, np.ndarra
 
 
 def invert(values: np.ndarray, setup: LaserSetup) -> tuple[np.ndarray, np.ndarray]:
-    """Centre (n, 3) [m] and unit axis (n, 3) of the cage that shows these readings (n, 5)."""
+    """Centre (n, 3) [m] and unit axis (n, 3) of the cage that shows these readings (n, 5) [m].
+
+    InputError for readings of another shape or unit.
+    """
+    values = _checked(values)
     x0, p, q = slopes(values, setup)
     axis = np.column_stack([np.ones(len(p)), -p, -q])
     axis /= np.linalg.norm(axis, axis=1, keepdims=True)
@@ -154,8 +203,10 @@ def by_tilt_angles(values: np.ndarray, setup: LaserSetup) -> np.ndarray:
     """Centre (n, 2) as (y, z) [m] by the paper's equation: each sensor in a plane of its own.
 
     d = Y - R (1 - cos(theta))/cos(theta) - plane tan(theta), theta the tilt that the end face
-    shows in the sensor's plane: exact for a cage that tilts in that plane alone.
+    shows in the sensor's plane: exact for a cage that tilts in that plane alone. InputError as
+    ``invert``.
     """
+    values = _checked(values)
     _, p, q = slopes(values, setup)
     theta = np.arctan(np.column_stack([-p, -q]))
     lifted = setup.radius * (1.0 - np.cos(theta)) / np.cos(theta)
@@ -214,111 +265,3 @@ def sample_times(ds: xarray.Dataset, *, rate: float | None = None) -> np.ndarray
 def _at(taken: np.ndarray, t: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Values (n, 3) at the times ``taken`` (n,) from those (m, 3) at ``t`` (m,)."""
     return np.column_stack([np.interp(taken, t, column) for column in values.T])
-
-
-def load_readings(path: str | Path) -> np.ndarray:
-    """Readings (n, 5) [m] of a test rig from a CSV file, in the order of ``CHANNELS``.
-
-    Its first line names the columns Y, Z, X1, X2, X3 in any order; below are numbers in
-    millimetres. Other columns are ignored; ``load_times`` reads one of times. Raises InputError
-    for a file that has them not.
-    """
-    names, table = _columns(path)
-    lacking = [name for name in CHANNELS if name not in names]
-    if lacking:
-        raise InputError(
-            f"The readings '{path}' have no column '{lacking[0]}'; the first line must name "
-            f"{', '.join(CHANNELS)}, then numbers in mm.",
-            where=lacking[0],
-        )
-    found = table[:, [names.index(name) for name in CHANNELS]]
-    if (farthest := float(np.abs(found).max())) > _FARTHEST:
-        raise InputError(
-            f"The readings '{path}' go up to {farthest:g} mm, but no cage moves farther than "
-            f"{_FARTHEST:g} mm in its clearance: write mm, as 0.15 for 150 um, from the reading of "
-            "a centred cage.",
-            value=farthest,
-        )
-    return 1e-3 * found
-
-
-def load_times(path: str | Path) -> np.ndarray | None:
-    """Times (n,) [s] of a rig's readings: the column t of their file; None if it has none.
-
-    Raises InputError for times of another name, and for those that do not rise.
-    """
-    names, table = _columns(path)
-    if TIME not in names:
-        if other := next((name for name in names if _OF_TIMES.match(name)), None):
-            raise InputError(
-                f"The readings '{path}' have a column '{other}'; name it t, and give seconds.",
-                where=TIME,
-                value=other,
-            )
-        return None
-    times: np.ndarray = table[:, names.index(TIME)]
-    if (late := np.flatnonzero(np.diff(times) <= 0.0)).size:
-        row = int(late[0]) + 1
-        raise InputError(
-            f"The readings '{path}' have times that do not rise: reading {row + 1} is at "
-            f"{times[row]:g} s, after {times[row - 1]:g} s; sort them, or write more digits.",
-            where=TIME,
-            value=float(times[row]),
-        )
-    return times
-
-
-def _columns(path: str | Path) -> tuple[list[str], np.ndarray]:
-    """Names of a CSV file's columns, and its numbers (n, columns)."""
-    file = path_of(path, "readings")
-    try:
-        first, *rest = text_of(file, "readings are").splitlines() or [""]
-    except OSError as exc:
-        raise InputError(f"The readings '{path}' cannot be read: {exc.strerror}.") from exc
-    names = [name.strip() for name in first.split(",")]
-    if twice := next((name for name in names if name and names.count(name) > 1), None):
-        raise InputError(
-            f"The readings '{path}' have {names.count(twice)} columns '{twice}'; leave one of "
-            "them.",
-            where=twice,
-        )
-    lines = [(number, line) for number, line in enumerate(rest, 2) if line.strip()]
-    other = next((f"'{mark}'" if mark == ";" else "tabs" for mark in ";\t" if mark in first), None)
-    if other:
-        raise InputError(
-            f"The readings '{path}' have {other} between their columns; write commas there, and "
-            "numbers with a point, as 0.15."
-        )
-    if not lines:
-        raise InputError(
-            f"The readings '{path}' hold 0 numbers below their first line, which names the columns."
-        )
-    try:
-        table = np.loadtxt([line for _, line in lines], delimiter=",", ndmin=2)
-    except ValueError:
-        table = np.full((1, 1), np.nan)
-    if table.shape[1] != len(names) or not np.isfinite(table).all():
-        raise InputError(f"The readings '{path}' {_fault(names, lines)}.")
-    return names, table
-
-
-def _fault(names: list[str], lines: list[tuple[int, str]]) -> str:
-    """What is wrong with the first line that is."""
-    for number, line in lines:
-        entries = [entry.strip() for entry in line.split(",")]
-        if len(entries) != len(names):
-            return (
-                f"name {len(names)} columns, but their line {number} holds {len(entries)} numbers; "
-                "write one number a column, with a point, as 0.15"
-            )
-        for name, entry in zip(names, entries):
-            try:
-                known = np.isfinite(float(entry))
-            except ValueError:
-                known = False
-            if not known:
-                return (
-                    f"hold what is no number: '{entry}' in line {number}, column '{name}'; leave "
-                    "out lines without a reading"
-                )
-    return "hold what is no number"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 import warnings
 from collections.abc import Iterable
 from dataclasses import asdict
@@ -25,6 +26,7 @@ from flexcage.results.shards import BLOSC, SLOTS
 
 LARGEST_BLOCK = 2**31  # bytes of a variable's block: Blosc holds no more
 _GRIDS = (TIME, TIME_HF)
+_CHUNK = re.compile(r"c(/\d+)*")  # a file of an array's chunk
 
 
 def create_arrays(path: Path, layout: Layout) -> None:
@@ -169,4 +171,6 @@ def _metadata_files(path: Path, layout: Layout) -> Iterable[str]:
         yield f"{v.name}/{NODE}"
     for name in sorted(layout.coords):
         files = (file for file in sorted((path / name).rglob("*")) if file.is_file())
-        yield from (file.relative_to(path).as_posix() for file in files)
+        inside = (file.relative_to(path / name).as_posix() for file in files)
+        # what Zarr reads; file managers leave files of their own (.DS_Store)
+        yield from (f"{name}/{file}" for file in inside if file == NODE or _CHUNK.fullmatch(file))

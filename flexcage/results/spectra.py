@@ -16,6 +16,7 @@ import numpy as np
 
 from flexcage.core.errors import InputError
 from flexcage.results import metrics
+from flexcage.results.evenly import FEWEST, grid_of, series
 from flexcage.results.known import KNOWN
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.registry import NEIGHBOURS
@@ -23,15 +24,15 @@ from flexcage.results.registry import NEIGHBOURS
 if TYPE_CHECKING:
     import xarray
 
-GRIDS = ("time", "time_hf")
-FEWEST = 8  # samples of a spectrum
+    from flexcage.geometry.bearing import Bearing
+
 TURNS = 8  # of the cage in a segment of a run's spectra, if the run is that long
 BAND = (2e3, 20e3)  # Hz, of the vibration whose envelope is shown: what sensors and shocks share
 APART = 3  # bins of a Hann window from which on a line stands apart from the mean and its like
 
 
 def bearing_frequencies(
-    bearing: BearingNumbers, inner_speed: float, outer_speed: float = 0.0
+    bearing: BearingNumbers | Bearing, inner_speed: float, outer_speed: float = 0.0
 ) -> dict[str, float]:
     """Frequencies [Hz] by name, without slip, of a bearing whose rings turn at speeds [rad/s].
 
@@ -39,7 +40,8 @@ def bearing_frequencies(
     the cage, and ``2 BSF``, at which a defect on it strikes the races; ``BPFO`` and ``BPFI``: the
     elements' passing of a place on the outer and the inner race. Source: ``geometry.kinematics``.
     """
-    speeds = bearing.kinematics(inner_speed, outer_speed)
+    numbers = bearing if isinstance(bearing, BearingNumbers) else BearingNumbers.of(bearing)
+    speeds = numbers.kinematics(inner_speed, outer_speed)
     return {
         "FTF": speeds.cage_frequency,
         "shaft": abs(inner_speed) / (2.0 * pi),
@@ -189,7 +191,7 @@ def spectral_density(
     """
     from scipy.signal import welch
 
-    x, rate = _series(signal)
+    x, rate = series(signal)
     count = x.shape[-1]
     length = count if resolution is None else _segment(resolution, rate, count)
     half = length // 2
@@ -215,7 +217,7 @@ def envelope(signal: xarray.DataArray, band: tuple[float, float] = BAND) -> xarr
     from scipy.signal import butter, hilbert, sosfiltfilt
 
     low, high = band
-    x, rate = _series(signal)
+    x, rate = series(signal)
     if not 0.0 < low < high < 0.5 * rate:
         raise InputError(
             f"The band {low:g} to {high:g} Hz of an envelope must rise and lie within 0 and "
@@ -225,13 +227,13 @@ def envelope(signal: xarray.DataArray, band: tuple[float, float] = BAND) -> xarr
         )
     sections = butter(4, (low, high), "bandpass", fs=rate, output="sos")
     values = np.abs(hilbert(sosfiltfilt(sections, x, axis=-1), axis=-1))
-    out = signal.copy(data=np.moveaxis(values, -1, signal.dims.index(_grid(signal))))
+    out = signal.copy(data=np.moveaxis(values, -1, signal.dims.index(grid_of(signal))))
     return out.assign_attrs(long_name=f"envelope of {signal.attrs.get('long_name', '')}")
 
 
 def _reach(signal: xarray.DataArray) -> float:
     """Half the sampling rate [Hz]."""
-    t = signal[_grid(signal)].values
+    t = signal[grid_of(signal)].values
     return 0.5 * (len(t) - 1) / float(t[-1] - t[0])
 
 
@@ -258,7 +260,7 @@ def amplitude_spectrum(
     """
     from scipy.signal import get_window
 
-    x, rate = _series(signal)
+    x, rate = series(signal)
     if detrend:
         x = x - x.mean(axis=-1, keepdims=True)
     w = get_window(window, x.shape[-1])
@@ -288,7 +290,8 @@ def vibration_figures(
 
     A line that the record does not set apart from the mean is NaN.
     """
-    x = signal.values - float(signal.mean())
+    x, _ = series(signal)
+    x = x - x.mean()
     rms = float(np.sqrt(np.mean(x**2)))
     figures = {
         "rms": rms,
@@ -304,31 +307,13 @@ def vibration_figures(
     return figures
 
 
-def _grid(signal: xarray.DataArray) -> str:
-    found = next((d for d in GRIDS if d in signal.dims), None)
-    if found is None:
-        raise InputError(f"A spectrum needs a time dimension; this array has {signal.dims}.")
-    return found
-
-
-def _series(signal: xarray.DataArray) -> tuple[np.ndarray, float]:
-    """Values with time last (..., n), and samples a second [Hz]."""
-    grid = _grid(signal)
-    t = signal[grid].values
-    if len(t) < FEWEST:
-        raise InputError(f"A spectrum needs {FEWEST} samples or more; there are {len(t)}.")
-    values = np.asarray(signal.values, float)
-    x = np.moveaxis(values, signal.dims.index(grid), -1)
-    return x, (len(t) - 1) / float(t[-1] - t[0])
-
-
 def _over_frequency(
     signal: xarray.DataArray, frequency: np.ndarray, values: np.ndarray, attrs: dict
 ) -> xarray.DataArray:
     """``values`` (..., frequency) with the labels of the signal, frequency in time's place."""
     import xarray as xr
 
-    grid = _grid(signal)
+    grid = grid_of(signal)
     others = [d for d in signal.dims if d != grid]
     axis = xr.Variable("frequency", frequency, {"units": "Hz", "long_name": "frequency"})
     out = xr.DataArray(

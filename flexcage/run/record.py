@@ -11,8 +11,9 @@ import numpy as np
 
 from flexcage.cages import cage_type_of, riveted_cages
 from flexcage.case import Case
-from flexcage.core.binding import check_spec, expect
+from flexcage.core.binding import check_spec, expect, path_of
 from flexcage.core.errors import InputError
+from flexcage.core.output_folders import check_no_file
 from flexcage.core.timing import Stages
 from flexcage.core.units import parse
 from flexcage.core.warning import RunWarning
@@ -250,6 +251,8 @@ class RunRecord:
         cage, a time outside the run, or a folder that holds files.
         """
         self.recovery  # noqa: B018  (refuses a rigid cage)
+        folder = path_of(folder, "folder")
+        check_no_file(folder)
         t = self.dataset["time"].values
         if times is None:
             near = t[np.abs(t - self.peak_time) < ABOUT_PEAK]

@@ -36,7 +36,7 @@ from flexcage.stress.counting import (
     joined,
     require_pylife,
 )
-from flexcage.stress.sn_curves import SNCurve
+from flexcage.stress.sn_curves import SNCurve, of_other
 
 _DIRECTIONS = 64  # planes looked at first, spread evenly
 _STEPS = np.radians([10.0, 5.0, 2.5, 1.25])  # by which the best one is turned then
@@ -100,11 +100,13 @@ class PlaceFatigue:
 @dataclass(frozen=True, eq=False)
 class Fatigue:
     """Fatigue at the places of a cage over ``duration`` [s] of settled motion, with the S-N curve
-    used. Mean stress counts by the Haigh diagram of the FKM guideline with the curve's M."""
+    used. Mean stress counts by the Haigh diagram of the FKM guideline with the curve's M. ``cage``
+    names the cage's material, if it is known."""
 
     curve: SNCurve
     duration: float
     places: tuple[PlaceFatigue, ...]
+    cage: str = ""
 
     def __iter__(self) -> Iterator[PlaceFatigue]:
         return iter(self.places)
@@ -145,6 +147,7 @@ class Fatigue:
             f"{c.slope:g}, probability of survival {100.0 * c.survival:g} %",
             f"mean stress: FKM Haigh diagram, M = {c.mean_stress_sensitivity:.3g}",
             f"source: {c.source or 'the user'}",
+            *of_other(c.material, self.cage),
         ]
         return "\n".join([*words, *([f"assumption: {c.assumption}"] if c.assumption else [])])
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from flexcage.core.binding import check_spec, expect
+from flexcage.core.binding import expect
 from flexcage.core.cache import cached_arrays
 from flexcage.core.errors import InputError
 from flexcage.core.threads import one_blas_thread
@@ -32,7 +32,7 @@ from flexcage.stress.places import Places, in_words
 from flexcage.stress.recovery import STRESS_VERSION, StressRecovery
 from flexcage.stress.rivets import Joints, RivetFields, Rivets, rivet_loads
 from flexcage.stress.series import as_time, samples_near
-from flexcage.stress.sn_curves import SNCurve, sn_curve
+from flexcage.stress.sn_curves import SNCurve, check_curve, sn_curve
 
 if TYPE_CHECKING:
     import xarray
@@ -162,7 +162,7 @@ class RunStress:
         require_pylife()
         used = sn_curve(material) if curve is None else curve
         expect(used, SNCurve, "curve")
-        check_spec(used, "curve")
+        check_curve(used, "curve")
         fields = TensorFields(self.recovery)
         ds = settled(self.dataset, self.settle)
         places = chosen_places(place, tuple(fields.places))
@@ -179,7 +179,8 @@ class RunStress:
         time = float(t[-1] - t[0])
         turn = time / turns if turns else float("nan")
         step = time / (len(t) - 1)
-        return place_fatigue(stresses, used, windows, samples=samples, step=step, turn=turn)
+        found = place_fatigue(stresses, used, windows, samples=samples, step=step, turn=turn)
+        return replace(found, cage=material)
 
     @one_blas_thread
     def rivets(self, *, diameter: float) -> Rivets:

@@ -9,9 +9,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from flexcage.core.binding import check_spec
 from flexcage.core.errors import InputError
 from flexcage.core.registry import add_sourced
 from flexcage.core.spec import option, quantity
+from flexcage.core.units import describe
+
+_LEAST = 1e5  # Pa, below any solid's strength: megapascals that were given as pascals
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -19,10 +23,10 @@ class SNCurve:
     """Stress amplitude that a material endures for ``cycles`` at R = -1, and its slope."""
 
     material: str = option(doc="name of the material")
-    amplitude: float = quantity("MPa", doc="stress amplitude endured at R = -1", above=0.0)
+    amplitude: float = quantity("MPa", doc="stress amplitude endured at R = -1", minimum=_LEAST)
     cycles: float = option(doc="cycles for which it is endured", minimum=1.0)
     slope: float = option(doc="k of N = cycles (amplitude/S)^k", minimum=1.0)
-    tensile_strength: float = quantity("MPa", doc="tensile strength", above=0.0)
+    tensile_strength: float = quantity("MPa", doc="tensile strength", minimum=_LEAST)
     mean_stress: float | None = option(
         None, doc="mean stress sensitivity M; by default Goodman's", minimum=0.0
     )
@@ -84,16 +88,37 @@ SN_CURVES: dict[str, SNCurve] = {
 }
 
 
+def check_curve(curve: SNCurve, where: str) -> None:
+    """Raise InputError for values out of their bounds, or that contradict each other."""
+    check_spec(curve, where)
+    if curve.mean_stress is None and curve.amplitude > curve.tensile_strength:
+        raise InputError(
+            f"{where}.tensile_strength is {describe(curve.tensile_strength, 'MPa')}, less than the "
+            f"amplitude of {describe(curve.amplitude, 'MPa')}, so that Goodman's line says nothing "
+            "of mean stress; give mean_stress as well, or correct one of them.",
+            where=f"{where}.tensile_strength",
+            value=curve.tensile_strength,
+        )
+
+
 def register_sn_curve(curve: SNCurve) -> SNCurve:
     """Add a material's curve: runs and studies with that material then use it; returns it.
 
     SI units. Raises InputError for a material that has one, a value out of its bounds, or a curve
     without its ``source``.
     """
+    check_curve(curve, "sn_curve")
     lacking = f"The S-N curve of '{curve.material}' has no source; say where its values come from."
     return add_sourced(
         SN_CURVES, curve.material, curve, what="S-N curve", where="sn_curve", unsourced=lacking
     )
+
+
+def of_other(material: str, cage: str) -> list[str]:
+    """A line for results whose values are of another material than the cage; none if of the
+    same."""
+    same = not cage or material == cage
+    return [] if same else [f"the values are of {material}, and the cage is of {cage}"]
 
 
 def sn_curve(material: str) -> SNCurve:

@@ -30,6 +30,7 @@ from flexcage.geometry.cage import Cage
 from flexcage.results.bootstrap import NO_INTERVAL
 from flexcage.results.statistics import Windows
 from flexcage.stress.rubbing import Rub, Rubbing
+from flexcage.stress.sn_curves import of_other
 from flexcage.stress.wear_laws import WearLaw
 
 if TYPE_CHECKING:
@@ -57,6 +58,7 @@ class Wear:
     duration: float
     dataset: xarray.Dataset
     friction_check: float
+    cage: str = ""  # name of the cage's material, if it is known
 
     @property
     def depth_rate(self) -> float:
@@ -130,6 +132,7 @@ class Wear:
         words = [
             f"{law.material}: k = {law.coefficient * 1e9:.3g} mm^3/(N m) (Archard)",
             f"source: {law.source or 'the user'}",
+            *of_other(law.material, self.cage),
         ]
         return "\n".join([*words, *([f"assumption: {law.assumption}"] if law.assumption else [])])
 
@@ -152,7 +155,8 @@ def wear(
     lost, found = float(recorded[0] - recorded[-1]), float(np.trapezoid(rubbing.friction, t))
     slid = land_rubbing(ds, cage, land.on(bearing.land(cage)))
     table = _tabled(rubbing, ds, law.coefficient, windows, slid)
-    return Wear(law, float(t[-1] - t[0]), table, found / lost if lost else float("nan"))
+    check = found / lost if lost else float("nan")
+    return Wear(law, float(t[-1] - t[0]), table, check, cage.material.name)
 
 
 def _tabled(

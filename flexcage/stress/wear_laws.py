@@ -11,7 +11,10 @@ from dataclasses import dataclass
 
 from flexcage.core.errors import InputError
 from flexcage.core.registry import add_sourced
-from flexcage.core.spec import option
+from flexcage.core.spec import option, quantity
+
+# m^3/(N m), ten times what the softest solid loses to an abrasive: mm^3 that were given as m^3
+_MOST = 1e-10
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -19,7 +22,9 @@ class WearLaw:
     """Archard's law for one material: ``coefficient`` k [m^3/(N m)] (1 mm^3/(N m) is 1e-9)."""
 
     material: str = option(doc="name of the material that wears")
-    coefficient: float = option(doc="worn volume by force and distance, m^3/(N m)", minimum=0.0)
+    coefficient: float = quantity(
+        "mm^3/(N*m)", doc="worn volume by force and distance", minimum=0.0, maximum=_MOST
+    )
     source: str = option("", doc="where the value comes from")
     assumption: str = option("", doc="what no source gives")
 
@@ -63,8 +68,9 @@ def wear_law(material: str) -> WearLaw:
         return WEAR_LAWS[material]
     raise InputError(
         f"No published wear coefficient of {material} on steel is known here (there are "
-        f"{', '.join(WEAR_LAWS)}); give your own, run.wear(flexcage.spec.WearLaw(...)), or "
-        "register it with flexcage.register.wear_law.",
+        f"{', '.join(WEAR_LAWS)}); give your own, flexcage wear RUN --coefficient "
+        "'1e-8 mm^3/(N*m)' or run.wear(flexcage.spec.WearLaw(...)), or register it with "
+        "flexcage.register.wear_law.",
         where="law",
         value=material,
     )

@@ -15,6 +15,7 @@ from typing import Protocol
 import numpy as np
 from scipy.stats import kendalltau
 
+from flexcage.core.errors import InputError
 from flexcage.study.decisions import NOTHING, Evidence, above, all_of, equal, less, trend, turning
 
 At = Callable[[str, str], float]  # of an output and a condition: one number
@@ -34,7 +35,22 @@ class Part(Protocol):
 
 
 @dataclass(frozen=True)
-class Trend:
+class _OfConditions:
+    """A part that compares conditions, each by its label."""
+
+    def __post_init__(self) -> None:
+        given = self.conditions  # type: ignore[attr-defined]
+        if isinstance(given, str) or len(set(given)) < len(given):
+            raise InputError(
+                f"The conditions are {given!r}, but should be labels that differ, as in "
+                "('slow', 'fast').",
+                where="conditions",
+                value=given,
+            )
+
+
+@dataclass(frozen=True)
+class Trend(_OfConditions):
     """An output rises (or falls) from each condition to the next; a change of less than the share
     ``least`` from first to last speaks against it."""
 
@@ -53,7 +69,7 @@ class Trend:
 
 
 @dataclass(frozen=True)
-class Turn:
+class Turn(_OfConditions):
     """An output falls to the condition numbered ``turn``, from 0, and rises from there; with
     ``lowest`` false it rises and falls."""
 
@@ -74,7 +90,7 @@ class Turn:
 
 
 @dataclass(frozen=True)
-class Between:
+class Between(_OfConditions):
     """An output lies between two limits under every condition; either may be infinite."""
 
     output: str
@@ -97,7 +113,7 @@ class Between:
 
 
 @dataclass(frozen=True)
-class Unchanged:
+class Unchanged(_OfConditions):
     """An output is as good as the same under every condition: apart from that under the first by
     less than the share ``within`` of it. Its test is that of equivalence (``decisions.equal``)."""
 
@@ -134,7 +150,7 @@ class Below:
 
 
 @dataclass(frozen=True)
-class Together:
+class Together(_OfConditions):
     """Two outputs go up and down together over the conditions: Kendall's rank correlation is above
     zero. Its test is Student's over the correlations of single starts."""
 

@@ -13,7 +13,7 @@ from typing import Any
 
 from flexcage.case import Case
 from flexcage.contacts.spec import FEWEST_SLICES, MOST_SLICES
-from flexcage.core.binding import path_of
+from flexcage.core.binding import expect, path_of
 from flexcage.core.errors import FlexcageError, InputError
 from flexcage.core.reading import read_json
 from flexcage.core.warning import RunWarning
@@ -146,6 +146,8 @@ def converge(
     """
     from flexcage.render import convergence_picture
 
+    expect(case, Case, "case", "flexcage.load_case reads one from a file")
+    axes = (axes,) if isinstance(axes, str) else axes
     if duration is not None:
         case = case.replace("solver.duration", duration)
     steps = levels(case, axes)

@@ -31,16 +31,18 @@ from flexcage.study.verdicts import FAILS, HOLDS, UNDECIDED
 @dataclass(frozen=True)
 class Evidence:
     """``p``: probability of what was found, or more of it, if the claim were not so; ``against``:
-    if the claim were so, or its contrary not. ``effect`` is what was found, in words."""
+    if the claim were so, or its contrary not. ``effect`` is what was found, in words, ``starts``
+    how many values the samples have, if that is known."""
 
     p: float
     against: float
     effect: str = ""
+    starts: frozenset[int] = frozenset()
 
     @property
     def contrary(self) -> Evidence:
         """The evidence for the contrary claim."""
-        return Evidence(self.against, self.p, self.effect)
+        return Evidence(self.against, self.p, self.effect, self.starts)
 
 
 NOTHING = Evidence(1.0, 1.0, "no figures")  # says nothing for or against
@@ -58,7 +60,7 @@ def trend(groups: Groups, *, rising: bool = True, least: float = 0.0) -> Evidenc
     if least > 0.0:
         against = min(1.0, 2.0 * min(against, equal(groups[0], groups[-1], within=least).p))
     way = "rising" if rising else "falling"
-    return Evidence(test.p, against, f"{test.share:.0%} of pairs {way}")
+    return Evidence(test.p, against, f"{test.share:.0%} of pairs {way}", _counts(groups))
 
 
 def turning(groups: Groups, *, turn: int, lowest: bool = True) -> Evidence:
@@ -74,7 +76,7 @@ def turning(groups: Groups, *, turn: int, lowest: bool = True) -> Evidence:
     against = min(1.0, 2.0 * min(first.p_contrary, last.p_contrary))
     ways = ("falling", "rising") if lowest else ("rising", "falling")
     found = f"{first.share:.0%} of pairs {ways[0]}, then {last.share:.0%} {ways[1]}"
-    return Evidence(max(whole.p, first.p, last.p), against, found)
+    return Evidence(max(whole.p, first.p, last.p), against, found, _counts(groups))
 
 
 def bending(groups: Groups, at: Sequence[float], *, lowest: bool = True) -> Evidence:
@@ -86,7 +88,8 @@ def bending(groups: Groups, at: Sequence[float], *, lowest: bool = True) -> Evid
     freedom = error**4 / float(((c**2 * errors) ** 2 / (sizes - 1)).sum()) if error else inf
     bend = value if lowest else -value
     p = _beyond(bend, error, freedom)
-    return Evidence(p, 1.0 - p, f"quadratic contrast {value:.3g} ± {error:.2g}")
+    said = f"quadratic contrast {value:.3g} ± {error:.2g}"
+    return Evidence(p, 1.0 - p, said, _counts(groups))
 
 
 def _quadratic(at: np.ndarray) -> np.ndarray:
@@ -119,7 +122,8 @@ def equal_by_moments(means: Any, deviations: Any, sizes: Any, *, margin: float) 
     freedom = error**4 / float((errors**2 / (sizes - 1)).sum()) if error else inf
     inside = max(_beyond(apart + margin, error, freedom), _beyond(margin - apart, error, freedom))
     outside = min(_beyond(apart - margin, error, freedom), _beyond(-apart - margin, error, freedom))
-    return Evidence(inside, outside, f"apart by {apart:.3g} ± {error:.2g}, allowed {margin:.3g}")
+    said = f"apart by {apart:.3g} ± {error:.2g}, allowed {margin:.3g}"
+    return Evidence(inside, outside, said, frozenset(sizes.astype(int).tolist()))
 
 
 def above(values: Sample, limit: float) -> Evidence:
@@ -127,7 +131,8 @@ def above(values: Sample, limit: float) -> Evidence:
     means, errors, sizes = _moments((values,))
     error = sqrt(float(errors[0]))
     p = _beyond(float(means[0]) - limit, error, float(sizes[0]) - 1.0)
-    return Evidence(p, 1.0 - p, f"mean {means[0]:.3g} ± {error:.2g}, limit {limit:.3g}")
+    said = f"mean {means[0]:.3g} ± {error:.2g}, limit {limit:.3g}"
+    return Evidence(p, 1.0 - p, said, _counts((values,)))
 
 
 def less(one: Sample, other: Sample, *, by: float = 0.0) -> Evidence:
@@ -138,7 +143,7 @@ def less(one: Sample, other: Sample, *, by: float = 0.0) -> Evidence:
     freedom = error**4 / float((errors**2 / (sizes - 1)).sum()) if error else inf
     apart = float(means[1] - means[0]) - by * abs(float(means[0]))
     p = _beyond(apart, error, freedom)
-    return Evidence(p, 1.0 - p, f"{means[0]:.3g} and {means[1]:.3g}")
+    return Evidence(p, 1.0 - p, f"{means[0]:.3g} and {means[1]:.3g}", _counts((one, other)))
 
 
 def all_of(parts: Iterable[Evidence]) -> Evidence:
@@ -146,9 +151,9 @@ def all_of(parts: Iterable[Evidence]) -> Evidence:
     and the smallest against it, times their number."""
     parts = list(parts)
     against = min(1.0, len(parts) * min(part.against for part in parts))
-    return Evidence(
-        max(p.p for p in parts), against, "; ".join(p.effect for p in parts if p.effect)
-    )
+    said = "; ".join(p.effect for p in parts if p.effect)
+    starts = frozenset().union(*(part.starts for part in parts))
+    return Evidence(max(p.p for p in parts), against, said, starts)
 
 
 def decide(
@@ -160,10 +165,19 @@ def decide(
     Half of the error is spent on claims that hold, half on claims that do not: with Holm's
     procedure over the claims the chance of one wrong decision or more, in either direction, in all
     looks together, is no more than ``looks.error``. Raises InputError for starts that were not
-    planned.
+    planned, or that the evidence does not have.
     """
     looks = looks or Looks()
     done = starts if isinstance(starts, Mapping) else dict.fromkeys(claims, starts)
+    for key, found in claims.items():
+        if found.starts and not min(found.starts) <= done[key] <= max(found.starts):
+            has = " to ".join(map(str, sorted({min(found.starts), max(found.starts)})))
+            raise InputError(
+                f"The evidence of claim '{key}' is of {has} starts, but starts says {done[key]}; "
+                "the level of a look is that of its own starts.",
+                where="starts",
+                value=done[key],
+            )
     holds = _rejected({key: e.p for key, e in claims.items()}, done, looks)
     fails = _rejected({key: e.against for key, e in claims.items()}, done, looks)
     return {
@@ -195,6 +209,10 @@ def holm(p: Sequence[float]) -> list[float]:
     return adjusted
 
 
+def _counts(groups: Groups) -> frozenset[int]:
+    return frozenset(len(group) for group in groups)
+
+
 def _moments(groups: Groups) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Means, squared standard errors and sizes; InputError for a group of fewer than two."""
     samples = [np.asarray(group, float) for group in groups]
@@ -203,6 +221,8 @@ def _moments(groups: Groups) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
             f"A group has {min(map(len, samples))} starts, but a mean's error wants two or more.",
             where="groups",
         )
+    if not all(np.isfinite(sample).all() for sample in samples):
+        raise InputError("A sample holds a value that is no number; leave it out.", where="groups")
     sizes = np.array([len(sample) for sample in samples], float)
     means = np.array([sample.mean() for sample in samples])
     return means, np.array([sample.var(ddof=1) for sample in samples]) / sizes, sizes

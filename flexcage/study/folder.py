@@ -30,7 +30,7 @@ from flexcage.core.binding import path_of
 from flexcage.core.errors import InputError, unwritable
 from flexcage.core.hashing import seal_holds, sealed
 from flexcage.core.locks import LOCK, held
-from flexcage.core.output_folders import check_study
+from flexcage.core.output_folders import check_no_file, check_study
 from flexcage.core.reading import read_json
 from flexcage.core.warning import RunWarning
 from flexcage.core.writing import check_own, replace, sync
@@ -135,8 +135,7 @@ class Folder:
 
     def prepare(self, plan: Plan) -> None:
         """Make the folder, or take over one that holds a study: its cases are found by content."""
-        if self.path.exists() and not self.path.is_dir():
-            raise InputError(f"'{self.path}' is a file; name a folder for the study.", where="out")
+        check_no_file(self.path)
         _own(*(self.path / name for name in _ITS_OWN))
         if (self.path / "plan.json").is_file():  # a study.toml alone is the user's own
             if (self.path / "study.toml").is_file():

@@ -13,6 +13,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from math import e, log, sqrt
+from numbers import Integral
 
 import numpy as np
 from scipy.optimize import brentq
@@ -50,9 +51,16 @@ class Looks:
     spending: str = "obrien_fleming"
 
     def __post_init__(self) -> None:
-        if not self.starts or list(self.starts) != sorted(set(self.starts)) or self.starts[0] < 2:
+        whole = all(isinstance(n, Integral) for n in self.starts)
+        if (
+            not whole
+            or not self.starts
+            or list(self.starts) != sorted(set(self.starts))
+            or self.starts[0] < 2
+        ):
             raise InputError(
-                f"The looks are at {list(self.starts)} starts, but should rise from 2 or more.",
+                f"The looks are at {list(self.starts)} starts, but should be whole "
+                "numbers that rise from 2 or more.",
                 where="starts",
                 value=self.starts,
             )

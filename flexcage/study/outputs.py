@@ -258,6 +258,13 @@ def parse_reduction(name: str) -> Reduction:
         raise InputError(f"Output '{name}' reduces by '{match[3]}', which is not known; {hint}.")
     pairs = [pair.partition("=") for pair in (match[2] or "").split(",") if pair]
     selection = {dim.strip(): label.strip() for dim, _, label in pairs}
+    if len(selection) < len(pairs):
+        raise InputError(
+            f"Output '{name}' says twice which of one dimension is meant; one output takes one of "
+            "them, or a range as in pocket=3:6.",
+            where="outputs",
+            value=name,
+        )
     for dim, label in selection.items():
         _check_label(name, found, dim, label)
     if ", " in found.unit and (last := found.dims[-1]) not in selection:

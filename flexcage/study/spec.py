@@ -67,9 +67,11 @@ class Study:
 
     def __post_init__(self) -> None:
         check_name(self.name, "The study's name")
-        object.__setattr__(self, "outputs", tuple(self.outputs))
+        outputs: Any = (self.outputs,) if isinstance(self.outputs, str) else self.outputs
+        object.__setattr__(self, "outputs", tuple(outputs))  # one alone is one
+        axes: Any = (self.axes,) if isinstance(self.axes, Axis) else self.axes
         written = partial(_as_text, self.case, si=True)
-        object.__setattr__(self, "axes", tuple(axis.mapped(written) for axis in self.axes))
+        object.__setattr__(self, "axes", tuple(axis.mapped(written) for axis in axes))
         check_spec(self)
 
     def to_toml(self) -> str:

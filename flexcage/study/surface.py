@@ -141,7 +141,7 @@ def _short(value: float) -> str:
 
 
 def response_surface(
-    results: StudyResults,
+    results: StudyResults | str | Path,
     output: str,
     *,
     axes: Sequence[str] = (),
@@ -150,8 +150,12 @@ def response_surface(
     models: Sequence[str] = MODELS,
     matters: float = 0.05,
 ) -> Surface:
-    """Surfaces through an output of a finished study; other arguments as in ``samples_of`` and
-    ``surface_through``."""
+    """Surfaces through an output of a finished study, which its folder may name; other arguments as
+    in ``samples_of`` and ``surface_through``."""
+    if isinstance(results, (str, Path)):
+        from flexcage.study.results import StudyResults
+
+        results = StudyResults(results)
     samples = samples_of(results, output, axes=axes, where=where)
     return surface_through(samples, highest=highest, models=models, matters=matters)
 

@@ -37,6 +37,7 @@ from flexcage.system import spec as specs
 from flexcage.system.data import AXIAL, MASS, TRANSVERSE
 from flexcage.system.layout import CONSTRAINTS as REACTIONS
 from flexcage.system.layout import QUATERNION, REACTION_UNITS, Layout, Places
+from flexcage.system.own_rows import check_rows
 from flexcage.system.spec import Constraint
 
 N_PARAMETERS = 10
@@ -319,6 +320,8 @@ def check_independent(
                 "number: does every label have its row?",
                 where=f"constraints.{i}", value=spec.type,
             )  # fmt: skip
+        given = len(KINDS[spec.type].parameters(spec))
+        check_rows(KINDS[spec.type], spec.type, data.p[i, :given], layout.places, y)
         for row in G * np.sqrt(data.ease):
             size, left = np.linalg.norm(row), row - basis.T @ (basis @ row)
             if not np.linalg.norm(left) > _ALIKE * size:

@@ -393,7 +393,8 @@ def test_text_in_another_encoding_is_told_how_to_save_it(tmp_path, coding):
     with pytest.raises(InputError, match="in UTF-8: save the file again") as caught:
         load_case(file)
     said = "is text in UTF-16" if coding != "latin-1" else "its line "
-    assert said in str(caught.value)
+    assert said in str(caught.value) and str(caught.value).count("case.toml") == 1
+    assert str(caught.value).endswith("'Save as'.")
 
 
 def test_a_byte_order_mark_is_no_mistake(tmp_path):

@@ -27,6 +27,13 @@ ODD = [
     (BALLS, "bearing.material.density", 7.85e6, "is 7850 kg/m^3 meant?"),
     (ROLLERS, "cage.material.poisson_ratio", 0.034, "is 0.34 meant?"),
     (ROLLERS, "cage.material.proof_stress", 160e3, "is 160 MPa meant?"),
+    (ROLLERS, "lubricant.viscosity", 68.0, "is 68 mPa*s meant?"),
+    (BALLS, "lubricant.viscosity", 2e-5, "is 20 mPa*s meant?"),
+    (ROLLERS, "lubricant.pressure_coefficient", 2e-11, "is 20 1/GPa meant?"),
+    (ROLLERS, "lubricant.density", 0.86, "is 860 kg/m^3 meant?"),
+    (ROLLERS, "contacts.pocket.friction.dynamic", 8.0, "is 0.08 meant?"),
+    (ROLLERS, "contacts.race.friction.peak", 5.0, "is 0.05 meant?"),
+    (BALLS, "load.gravity", 9810.0, "is 9.81 m/s^2 meant?"),
 ]  # fmt: skip
 
 
@@ -36,6 +43,22 @@ def test_a_constant_far_from_any_solid_is_questioned_once(case, path, value, sai
     assert len(found) == 1
     assert found[0].startswith(f"{path} is ")
     assert found[0].endswith(said)
+
+
+def test_friction_at_rest_below_that_of_sliding_is_questioned_where_both_are_read():
+    pocket = "contacts.pocket.friction"
+    odd = {f"{pocket}.static": 0.05, f"{pocket}.dynamic": 0.2}
+    ((key, text),) = odd_values(ROLLERS.replace(odd))
+    assert key == "odd_value" and text.startswith(f"{pocket}.static is 0.05, below its dynamic, 0")
+    for law in ("ramp_coulomb", "none"):
+        assert not list(odd_values(ROLLERS.replace({f"{pocket}.law": law, **odd})))
+
+
+def test_a_cage_whose_speed_is_held_at_none_is_questioned():
+    held = flexcage.spec.CageSpeed
+    ((_, text),) = odd_values(ROLLERS.replace("constraints", (held(),)))
+    assert text.startswith("constraints.0 (cage_speed) has neither speed nor ratio, and holds")
+    assert not list(odd_values(ROLLERS.replace("constraints", (held(ratio=0.4),))))
 
 
 @pytest.mark.parametrize("name", sorted(MATERIALS))

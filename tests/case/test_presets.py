@@ -1,10 +1,11 @@
 """Presets: the dimensions of the reference, and every assumption marked as one."""
 
 from importlib import resources
+from pathlib import Path
 
 import pytest
 
-from flexcage.case.presets import load_preset, preset_names
+from flexcage.case.presets import load_preset, preset_names, register_preset
 from flexcage.core.errors import InputError
 
 # value in SI, written out here a second time from the data of paper 000
@@ -64,3 +65,31 @@ def test_assumptions_are_marked_in_both_places(name):
 def test_unknown_preset_names_the_nearest():
     with pytest.raises(InputError, match="'n1012' is not known; the nearest is 'N1013'; presets"):
         load_preset("n1012")
+
+
+@pytest.mark.parametrize(
+    ("wrong", "right", "words"),
+    [
+        (
+            "[assumptions]",
+            "[assumption]",
+            "Unknown key 'assumption'; the nearest known one is 'ass",
+        ),
+        (
+            "title =",
+            "titel = 'x'\ntitle =",
+            r"Unknown key 'titel' in \[preset\]; the nearest .*'title'",
+        ),
+        (
+            "title =",
+            "dynamic_ratng = '4 kN'\ntitle =",
+            r"in \[preset\]; the nearest .*'dynamic_rating'",
+        ),
+    ],
+)
+def test_a_preset_s_misspelt_keys_are_told(tmp_path, wrong, right, words):
+    """A rating of another name was left out without a word."""
+    text = (Path(__file__).parents[1] / "examples/my_bearing.toml").read_text()
+    (tmp_path / "mine.toml").write_text(text.replace(wrong, right, 1))
+    with pytest.raises(InputError, match=f"In preset '.*mine.toml': .*{words}"):
+        register_preset(tmp_path / "mine.toml")

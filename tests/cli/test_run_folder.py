@@ -122,3 +122,15 @@ def test_there_is_still_nothing_to_resume_where_there_is_nothing(here, capsys):
     with pytest.raises(InputError, match="nothing to resume"):
         simulate(load_case(here / "case.toml"), out=Path("cc"), resume=True)
     assert not (here / "cc").exists()
+
+
+@pytest.mark.parametrize("name", ["out.txt", "flex.npz", "page.html", "table.csv", "OUT.JSON"])
+def test_a_folder_is_not_named_as_a_file(tmp_path, name):
+    """What was asked for as a file became a folder of that name, in silence."""
+    from flexcage.core.output_folders import check_no_file
+
+    with pytest.raises(InputError, match=f"{name}' is named as a file; name a folder .*, as '"):
+        check_no_file(tmp_path / name)
+    check_no_file(tmp_path / "load.1000")  # a folder's name may have a point
+    (tmp_path / name).mkdir()
+    check_no_file(tmp_path / name)

@@ -132,3 +132,15 @@ def test_clear_frees_what_info_counts():
     assert size > 8000 and "1 modes" in str(cache_info())
     assert clear_cache() == size
     assert cache_info().size == 0
+
+
+@pytest.mark.parametrize("text", ["4GB", "-1", "inf", "nan"])
+def test_a_limit_that_is_none_is_told_and_four_gigabytes_hold(monkeypatch, caplog, text):
+    from flexcage.core import cache
+
+    monkeypatch.setattr(cache, "_told", set())
+    monkeypatch.setenv("FLEXCAGE_CACHE_LIMIT_GB", text)
+    assert cache.cache_limit() == cache.cache_limit() == 4_000_000_000
+    assert caplog.text.count(f"FLEXCAGE_CACHE_LIMIT_GB is '{text}', but should be a number") == 1
+    monkeypatch.setenv("FLEXCAGE_CACHE_LIMIT_GB", "0.5")
+    assert cache.cache_limit() == 500_000_000 and len(caplog.records) == 1

@@ -25,6 +25,17 @@ SLIPS = {
     "a table twice": ("[load]\na = 1\n[load]\nb = 2", r"[load] stands twice: write all its"),
     "one twice below": ("[a.b]\n[a.b]", "[a.b] stands twice"),
     "windows": ("a = 1\r\nradial = 1 kN\r\n", 'radial = "1 kN"'),
+    "yaml": ("load:\n  radial: 5\n", "a section begins in brackets: [load]"),
+    "a colon": (
+        '[load]\nradial: "1 kN"',
+        """'=' stands between a name and its value: radial = "1 kN\"""",
+    ),
+    "json": ('{"load": {"radial": "1 kN"}}', "TOML is no JSON or XML: [load] begins a section"),
+    "a word": ("[bearing]\npreset = N1013  # mine", 'text stands in quotes: preset = "N1013"'),
+    "a blank of print": ('[load]\nradial\u00a0= "1 kN"', "a no-break space"),
+    "two on a line": ('a = "1 N" b = "2 N"', "begin a new one at b = "),
+    "a comma": ('radial = "1 kN",\naxial = "0 N"', "leave out the mark at the line's end"),
+    "C": ("// mine\n", "a comment begins with #"),
     "a path": ('file = "c:\\users\\a"', "single quotes"),
 }
 

@@ -81,7 +81,14 @@ def test_decimal_text_is_read_exactly():
         ("32 cSt", "Pa*s", ["kinematic", "density"]),
         ("1 ton", "kg", ["1000 kg", "2000 lb"]),
         ("1,000 N", "N", ["'1.000 N'", "'1000 N'"]),
-        ("1 000 N", "N", ["'000 N'"]),
+        ("1 000 N", "N", ["without marks, and decimals with a point: '1000 N'."]),
+        ("1\u202f000,5N", "N", ["'1000.5 N'."]),
+        ("6'000 rpm", "rpm", ["'6000 rpm'."]),
+        ("6_000 rpm", "rpm", ["'6000 rpm'."]),
+        ("-6.000,25 N", "N", ["'-6000.25 N'."]),
+        ("6,000.25 N", "N", ["'6000.25 N'."]),
+        ("6.000.000 N", "N", ["'6000000 N'."]),
+        ("6,000,000 N", "N", ["'6000000 N'."]),
         ("0,15 mm", "mm", ["write '0.15 mm', with a point."]),
         ("12,5 N", "N", ["write '12.5 N', with a point."]),
         (math.nan, "N", ["is nan, but should be a number with a unit, such as '1 N'"]),
@@ -111,6 +118,11 @@ def test_mistakes_are_one_sentence(text, unit, words):
 @pytest.mark.parametrize("value", [0.0, 0.0784, 0.0002, -1e-9, 628.3185307179587, 1 / 3, 2.1e11])
 def test_text_of_a_value_reads_back_to_it(value, unit):
     assert parse(format_si(value, unit), unit) == pytest.approx(value, rel=1e-15, abs=0)
+
+
+def test_one_point_parts_decimals():
+    """TOML's own numbers have it so, and drawings: 65.000 mm is no 65 metres."""
+    assert parse("6.000 N", "N") == 6.0 and parse("65.000 mm", "mm") == 0.065
 
 
 def test_text_is_what_a_person_would_write():

@@ -334,9 +334,14 @@ def test_the_command_line_uses_a_file(tmp_path):
 
 def test_files_that_cannot_be_loaded(tmp_path):
     (tmp_path / "broken.py").write_text("raise RuntimeError('not today')\n")
+    (tmp_path / "script.py").write_text("raise SystemExit(0)\n")
+    (tmp_path / "laws.txt").write_text("")
     for source, words in (
         (tmp_path / "none.py", "There is no file"),
         (tmp_path / "broken.py", "RuntimeError: not today"),
+        (tmp_path / "script.py", "ends the program as it is loaded"),
+        (tmp_path / "laws.txt", "is no file that can be loaded: .py"),
+        (str(tmp_path / "laws.txt"), "is no file that can be loaded: .py"),
         ("no_such_module_here", "ModuleNotFoundError"),
     ):
         with pytest.raises(InputError, match=words):

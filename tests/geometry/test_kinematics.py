@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from flexcage.core.errors import InputError
 from flexcage.geometry.kinematics import epicyclic, rolling_shares
 
 
@@ -67,3 +68,23 @@ def test_one_contact_angle_is_two_alike():
     assert one.element_frequency == pytest.approx(turns, rel=1e-14)
     assert one.outer_race_passing == pytest.approx(9 * 500.0 * (1.0 - gamma) / (2.0 * np.pi))
     assert one.inner_race_passing == pytest.approx(9 * 500.0 * (1.0 + gamma) / (2.0 * np.pi))
+
+
+@pytest.mark.parametrize(
+    ("wrong", "words"),
+    [
+        (
+            {"contact_angle": 15.0},
+            "contact_angle is 15 rad, .* is 15 deg meant, which is 0.2618 rad",
+        ),
+        ({"contact_angle": (0.2, 40.0)}, "contact_angle is 40 rad"),
+        ({"element_diameter": 90e-3}, "elements with a diameter of 0.09 on a pitch circle of 0.08"),
+        ({"element_diameter": 8.0}, "in the same unit"),
+        ({"element_count": 0}, "0 elements"),
+    ],
+)
+def test_degrees_and_sizes_of_no_bearing_are_refused(wrong, words):
+    """cos(15) is negative: the cage would turn faster than the mean of both rings."""
+    usual = {"element_diameter": 8e-3, "pitch_diameter": 82.5e-3, "element_count": 22}
+    with pytest.raises(InputError, match=words):
+        epicyclic(**{**usual, **wrong}, inner_speed=600.0)

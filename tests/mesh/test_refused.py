@@ -327,3 +327,29 @@ def test_groups_without_names_are_told_so(tmp_path):
     (tmp_path / "cage.msh").write_text(_MSH_1)
     with pytest.raises(InputError, match="has no named surfaces.*format 1 keeps no names: save as"):
         read_mesh(tmp_path / "cage.msh")
+
+
+@pytest.mark.parametrize("lost", ["one inside", "one with an edge outside", "none"])
+def test_a_void_that_a_lost_element_leaves_is_told(lost, caplog):
+    """A line of a deck that was lost, inside: no group misses it, and the volume hardly."""
+    import skfem
+
+    from flexcage.mesh.cage_mesh import signed_volumes
+    from flexcage.mesh.files.raw import RawMesh
+
+    grid = skfem.MeshTet.init_tensor(*[np.linspace(0.0, 1.0, 6)] * 3)
+    points, tets = grid.p.T, grid.t.T
+    back = signed_volumes(points, tets) < 0.0
+    tets = np.where(back[:, None], tets[:, [0, 2, 1, 3]], tets)
+    sides = ((points[tets] == 0.0) | (points[tets] == 1.0)).sum(axis=1)  # corners on each plane
+    ends = sides.max(axis=1)
+    kept = np.ones(len(tets), bool)
+    if lost != "none":
+        kept[np.flatnonzero(ends == (0 if lost == "one inside" else 2))[0]] = False
+    sound_tetrahedra(RawMesh(points=points, solids=(tets[kept],), surfaces={}), Path("box.inp"))
+    gone = tets[~kept].ravel() + 1
+    if lost == "none":
+        assert not caplog.records
+    else:
+        assert "has 1 voids inside, with the nodes" in caplog.text
+        assert all(str(node) in caplog.text for node in gone)

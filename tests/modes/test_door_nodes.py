@@ -15,6 +15,9 @@ REFUSED = {
         "GRDSET,,5\nGRID,1,,1.,2.,3.\n": "line 1: the entry GRDSET is not followed",
         "GRID,1,,1.,2.,3.\nINCLUDE 'b.bdf'\n": "line 2: the entry INCLUDE is not followed",
         "GRID,1,,1.,2.,3.\nGRID,1,,1.,2.,4.\n": r"numbers grids twice \(1\)",
+        "GRID 1  1. 2. 3.\n": "line 1: 'GRID 1  1. 2. 3.' is no GRID entry, whose fields are eight",
+        "GRID           1             1.0 2.0 3.0\n": "line 1: 'GRID .* is no GRID entry",
+        "GRID*                 1          0   1.0\n*   2.0\n": r"'GRID\* .* \(sixteen after",
         "CORD1R,1,1,2,3\nGRID,1,,1.,2.,3.\nGRID,4,1,0.,0.,1.\n": "line 1: the entry CORD1R",
     },
     "a.inp": {
@@ -36,6 +39,31 @@ def test_what_is_not_followed_is_refused(tmp_path, name, text):
     with pytest.raises(InputError, match=REFUSED[name][text]) as caught:
         read_points(tmp_path / name, where="modes.body_nodes")
     assert caught.value.where == "modes.body_nodes" and "empty, cut short" not in str(caught.value)
+
+
+def test_grids_of_both_widths_with_comments(tmp_path):
+    pytest.importorskip("pyyeti")
+    (tmp_path / "a.bdf").write_text(
+        "GRID           7             1.0     2.0     3.0               $ no, field\n"
+        "GRID*                  8                             4.0             5.0\n"
+        "*                    6.0\ngrid,9,,7.,8.,9.\n"
+    )
+    found = read_points(tmp_path / "a.bdf", where="modes.body_nodes")
+    assert found.numbers.tolist() == [7, 8, 9]
+    np.testing.assert_array_equal(found.places.ravel(), np.arange(1.0, 10.0))
+
+
+def test_rows_of_an_ansys_block_stand_in_its_columns(tmp_path):
+    """The library made node 1001 at the origin of the second row."""
+    pytest.importorskip("mapdl_archive")
+    row = f"{1:8d}{0:8d}{0:8d}{1.0:20.13E}{2.0:20.13E}{3.0:20.13E}\n"
+    head, end = "NBLOCK,6,SOLID,1,1\n(3i8,6e20.13)\n", "N,R5.3,LOC,-1,\n"
+    (tmp_path / "a.cdb").write_text(head + row + end)
+    found = read_points(tmp_path / "a.cdb", where="modes.body_nodes")
+    assert found.numbers.tolist() == [1] and found.places.tolist() == [[1.0, 2.0, 3.0]]
+    (tmp_path / "a.cdb").write_text(head + "1 0 0 1.0 2.0 3.0\n" + end)
+    with pytest.raises(InputError, match=r"line 3: '1 0 0 1.0 2.0 3.0' is no node by the format"):
+        read_points(tmp_path / "a.cdb", where="modes.body_nodes")
 
 
 def test_nodes_of_a_moved_instance_are_where_it_puts_them(tmp_path):

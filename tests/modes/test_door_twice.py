@@ -50,6 +50,28 @@ def test_arrays_that_contradict_are_refused(arrays, tmp_path, words):
         read_body(saved(arrays | CHANGES[words](arrays), tmp_path))
 
 
+def test_matrices_of_whole_numbers_and_of_true_and_false(arrays, tmp_path):
+    """An unsigned difference below zero wraps: a symmetric matrix stays one, another is told."""
+    k = np.rint(1e-3 * np.diag(np.arange(1.0, 82.0)) * 1e6).astype(np.uint64)
+    back = read_body(saved(arrays | {"K": k}, tmp_path))
+    np.testing.assert_array_equal(back.stiffness, k.astype(float))
+    k[0, 1], k[1, 0] = 3, 4
+    with pytest.raises(InputError, match=r"not symmetric: entries differ by 1.2e-05 of the"):
+        read_body(saved(arrays | {"K": k}, tmp_path))
+    with pytest.raises(InputError, match="K is an array of true and false, but should be"):
+        read_body(saved(arrays | {"K": arrays["K"] != 0.0}, tmp_path))
+
+
+@pytest.mark.parametrize("ending", [".npz", ".op4", ".pch", ".mtx"])
+def test_a_pointer_of_git_lfs_is_told(tmp_path, ending):
+    if ending in (".op4", ".pch"):
+        pytest.importorskip("pyyeti")
+    path = tmp_path / f"body{ending}"
+    path.write_text("version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 9\n")
+    with pytest.raises(InputError, match="a pointer of Git LFS; 'git lfs pull' in its folder"):
+        read_body(path)
+
+
 def test_a_matrix_that_stands_twice_in_an_op4_is_refused(arrays, body, tmp_path):
     pytest.importorskip("pyyeti")
     op4 = nastran("op4")

@@ -15,7 +15,7 @@ from test_pictures import N1013, run
 from flexcage.cages.window.defects import CrossbeamDefect
 from flexcage.cages.window.places import WINDOW_PLACES
 from flexcage.core.errors import InputError
-from flexcage.render.album import Scene, StressPictures, draw_album, picture_names
+from flexcage.render.album import Scene, StressPictures, check_names, draw_album, picture_names
 from flexcage.render.look import Look
 
 __all__ = ["run"]  # a fixture
@@ -154,3 +154,30 @@ def test_histories_are_given_the_stress_of_all_places(run, ring, drawn, tmp_path
 def test_a_look_that_cannot_be(wrong, words):
     with pytest.raises(InputError, match=words):
         Look(**wrong)
+
+
+def test_several_pictures_in_one_word_are_told():
+    with pytest.raises(InputError, match="name each by itself: orbit mesh; its pictures are"):
+        check_names(["orbit,mesh"], ["orbit", "mesh", "spectra"])
+
+
+def test_animations_are_drawn_beside_the_pictures_that_are_named(monkeypatch, tmp_path):
+    """--animate with --only drew no animation, and said nothing."""
+    from flexcage.render import album
+
+    def drawing(name, ending):
+        def draw(path):
+            path.touch()
+            return path
+
+        return album.Drawing(name, ending, draw)
+
+    for part, found in (
+        ("_geometry", [drawing("mesh", "png")]),
+        ("_motion", [drawing("orbit", "png")]),
+        ("_animations", [drawing("bearing", "gif")]),
+    ):
+        monkeypatch.setattr(album, part, lambda *_, found=found: found)
+    scene = SimpleNamespace(stress=None)
+    drawn = draw_album(scene, tmp_path, animate=True, only=["orbit"])
+    assert [path.name for path in drawn] == ["orbit.png", "bearing.gif"]

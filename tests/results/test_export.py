@@ -125,3 +125,17 @@ def test_parquet_round_trip(known_run, tmp_path):
 
 def test_default_grids_fit():
     assert OutputOptions().vibration_ratio == 4 and OutputOptions().block_hf == 1000
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("force[pocket=5]", "'force' has a column of each of its labels; name it without brackets"),
+        ("force,speed", "name each by itself: force speed"),
+        ("force speed", "name each by itself: force speed"),
+        ("forc", "the nearest known one is 'force'"),
+    ],
+)
+def test_several_variables_in_one_word_are_told(name, words):
+    with pytest.raises(InputError, match=re.escape(words)):
+        export.check_there(name, ["force", "speed"])

@@ -152,6 +152,14 @@ def test_what_gives_numbers_their_meaning_is_not_changed_unseen(run, change):
         RunStore.open(run)
 
 
+@pytest.mark.parametrize("name", [".DS_Store", "Thumbs.db", "desktop.ini", "._0"])
+def test_files_that_a_file_manager_leaves_are_no_damage(run, name):
+    for folder in (run, *(f for f in run.rglob("*") if f.is_dir())):
+        (folder / name).write_bytes(b"\0\0\0\1Bud1")
+    store = RunStore.open(run)
+    np.testing.assert_array_equal(store.dataset()["inner_angle"], np.arange(40.0))
+
+
 def test_a_checkpoint_that_is_missing_or_another_is_told(run):
     store, other = RunStore.open(run), io.BytesIO()
     assert store.checkpoint()["y"][0] == 20.0

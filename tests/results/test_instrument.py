@@ -14,14 +14,13 @@ from flexcage.results.instrument import (
     LaserSetup,
     by_tilt_angles,
     invert,
-    load_readings,
-    load_times,
     measured,
     of_run,
     readings,
     run_out,
     sample_times,
 )
+from flexcage.results.rig_file import load_readings, load_times
 
 SETUP = LaserSetup(radius=33e-3, half_width=16e-3, plane=15e-3, circle=31e-3)
 
@@ -77,6 +76,43 @@ def test_sensors_that_look_past_the_cage_are_refused():
         LaserSetup(radius=33e-3, half_width=16e-3, plane=15e-3, circle=34e-3)
 
 
+@pytest.mark.parametrize(
+    ("wrong", "words"),
+    [
+        ({"radius": 33.0}, r"radius is 33.0, but should be a length in metres; is 33 mm meant\?"),
+        ({"radius": "33 mm"}, "radius is '33 mm', but should be a number in SI"),
+        ({"circle": 0.0}, "circle is 0.0, but should be greater than 0"),
+        ({"plane": np.nan}, "plane is nan, but should be a number"),
+        ({"resolution": -1e-8}, "resolution is -1e-08, but should be a number in SI that is not"),
+        ({"rate": 0.0}, "rate is 0.0, but should be greater than 0"),
+        ({"angles": (0, 120, 240)}, "angles is .0, 120, 240., but should be in radians"),
+        ({"angles": (0.0, 0.0, 3.0)}, "should be apart, so that the sensors tell every tilt"),
+        ({"angles": (0.0, 2.0)}, "should be three numbers in radians"),
+    ],
+)
+def test_a_setup_in_other_units_or_without_a_plane_is_refused(wrong, words):
+    """Sensors of which two stand in one place left a singular matrix."""
+    usual = {"radius": 33e-3, "half_width": 16e-3, "plane": 15e-3, "circle": 31e-3}
+    with pytest.raises(InputError, match=words):
+        LaserSetup(**{**usual, **wrong})
+
+
+@pytest.mark.parametrize("of", [invert, by_tilt_angles])
+def test_readings_of_another_shape_or_unit_are_refused(of):
+    values = readings(np.array([[0.0, 0.1e-3, 0.0]]), tilted(1e-3), SETUP)
+    for wrong, words in (
+        (1e3 * values, "go up to 0.1.* m, but no cage moves farther"),
+        (values[:, :4], r"are of shape \(1, 4\).* should be numbers \(n, 5\), in the order Y, Z"),
+        (values[0], r"are of shape \(5,\)"),
+        (values.astype(str), "<U"),
+    ):
+        with pytest.raises(InputError, match=words):
+            of(wrong, SETUP)
+    lost = np.vstack([values, np.full(5, np.nan)])  # beyond the sensors' reach
+    one, two = (np.asarray(of(v, SETUP)[0]).ravel() for v in (values, lost))
+    np.testing.assert_allclose(one, two[: len(one)], atol=1e-12)
+
+
 def test_a_face_that_runs_out_turns_with_the_cage():
     """A cage that only turns, at 10 Hz: each axial reading is a sine of half of the run-out."""
     t = np.arange(1000) / 1e4
@@ -123,6 +159,7 @@ def test_readings_of_a_rig(tmp_path):
         ("Y,Z,X1,X2,X3\n1,2,3,4,5\n", "utf-16", "is text in UTF-16; readings are text in UTF-8"),
         ("Y,Z,X1,X2,X3,Y\n1,2,3,4,5,6\n", "utf-8", "have 2 columns 'Y'; leave one"),
         ("Y,Z,X1,X2,X3\n1,2,3,-150,5\n", "utf-8", "go up to 150 mm.*write mm, as 0.15 for 150 um"),
+        ("Y,Z,X1,X2,X3\n1e-4,2e-4,0,0,0\n", "utf-8", "stay within 0.0002 mm, less than any laser"),
         ("Y,Z,X1,X2,X3,Größe\n1,2,3,4,5,6\n", "latin-1", "line 1 has a character of another enc"),
     ],
 )  # fmt: skip

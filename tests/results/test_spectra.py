@@ -83,6 +83,60 @@ def test_an_outer_ring_that_turns_along_lets_nothing_pass():
     assert [lines[name] for name in ("BPFO", "BPFI", "BSF")] == pytest.approx([0.0] * 3, abs=1e-12)
 
 
+def record(values=None, time=None, dim="time", coords=True):
+    t = np.arange(400) / RATE if time is None else time
+    values = np.sin(2000.0 * np.arange(len(t)) / RATE) if values is None else values
+    return xr.DataArray(values, dims=(dim,), coords={dim: t} if coords else None)
+
+
+def uneven(change):
+    t = np.arange(400) / RATE
+    return record(time=change(t))
+
+
+WRONG = {
+    "rows lost": (lambda: uneven(lambda t: np.delete(t, slice(100, 120))), "not sampled evenly"),
+    "one row lost": (lambda: uneven(lambda t: np.delete(t, 200)), "0.0001 s lie between.*5e-05 s"),
+    "random": (lambda: uneven(lambda t: np.sort(t[-1] * np.random.default_rng(0).random(400))),
+               "not sampled evenly"),
+    "backwards": (lambda: uneven(lambda t: t[::-1]), "does not rise from sample to sample"),
+    "no instants": (lambda: record(coords=False), "give it the coordinate 'time' in seconds"),
+    "dates": (lambda: uneven(lambda t: (1e9 * t).astype("datetime64[ns]")), "of datetime64"),
+    "a lost value": (lambda: record(np.where(np.arange(400) == 7, np.nan, 1.0)),
+                     "no number at 1 of its 400 instants, the first at 0.00035 s"),
+    "complex": (lambda: record(np.ones(400) + 1j), "holds complex128 values"),
+    "array": (lambda: np.ones(400), "needs an xarray.DataArray.*type ndarray"),
+    "other name": (lambda: record(dim="t"), "needs a time dimension"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", WRONG)
+@pytest.mark.parametrize(
+    "of",
+    [
+        amplitude_spectrum,
+        spectral_density,
+        lambda s: envelope(s, (2e3, 8e3)),
+        lambda s: vibration_figures(s, {}, (2e3, 8e3)),
+    ],
+)
+def test_a_record_of_which_no_spectrum_can_be_is_refused(name, of):
+    """Rows that a logger lost shift every line, and in silence."""
+    make, words = WRONG[name]
+    with pytest.raises(InputError, match=words):
+        of(make())
+
+
+def test_a_clock_that_jitters_is_taken():
+    t = np.arange(400) / RATE + 5e-6 * np.random.default_rng(1).uniform(-1.0, 1.0, 400)
+    assert float(amplitude_spectrum(record(time=t)).max()) == pytest.approx(1.0, abs=0.2)
+
+
+def test_frequencies_of_a_bearing_itself():
+    bearing = load_preset("N1013").bearing
+    assert bearing_frequencies(bearing, 600.0) == bearing_frequencies(numbers_of("N1013"), 600.0)
+
+
 def test_parseval():
     """Without a window, power over frequency is the variance, to rounding."""
     x = signal(np.random.default_rng(1).normal(3.0, 2.0, 5001))

@@ -64,6 +64,9 @@ def test_times_that_are_none(flexible, tmp_path):
         ({"cycles": 0.0}, "curve.cycles is 0"),
         ({"amplitude": -40e6}, "curve.amplitude is -40"),
         ({"amplitude": "40 MPa"}, "curve.amplitude is '40 MPa'"),
+        ({"amplitude": 40.0}, "curve.amplitude is 4e-05 MPa, but must be 0.1 MPa or more"),
+        ({"tensile_strength": 97.0}, "curve.tensile_strength is 9.7e-05 MPa, but must be 0.1 MPa"),
+        ({"tensile_strength": 97e6}, "97 MPa, less than the amplitude of 120 MPa"),
     ],
 )
 def test_curves_out_of_bounds(flexible, wrong, words):
@@ -82,13 +85,28 @@ def test_fatigue_of_what_has_none(flexible, rigid):
 
 
 def test_wear_that_cannot_be(rigid):
-    refused(lambda: rigid.wear(WearLaw(**BRASS, coefficient=-1e-17)), "coefficient is -1e-17")
+    refused(lambda: rigid.wear(WearLaw(**BRASS, coefficient=-1e-17)), "is -1e-08 mm^3")
+    as_cubic_millimetres = WearLaw(**BRASS, coefficient=1e-8)
+    refused(
+        lambda: rigid.wear(as_cubic_millimetres),
+        "is 10 mm^3/(N*m), but must be 0.1 mm^3/(N*m) or less",
+    )
     refused(lambda: rigid.wear(1e-17), "law is 1e-17", "a WearLaw")
     worn = rigid.wear(WearLaw(**BRASS, coefficient=1e-17))
     for hours, words in ((-2.0, "hours is -2"), (float("nan"), "hours is nan"), ("2 h", "'2 h'")):
         refused(lambda h=hours: worn.depth(h), words)
     assert float(worn.depth(0).max()) == 0.0
     assert float(worn.depth(np.int64(2)).max()) == float(worn.depth(2.0).max())
+    assert "the cage is of" not in str(worn)
+    other = rigid.wear(WearLaw(material="PA66", coefficient=1e-17))
+    assert "the values are of PA66, and the cage is of brass" in str(other)
+
+
+def test_fatigue_by_a_curve_of_another_material(flexible):
+    pytest.importorskip("pylife")
+    fine = {"amplitude": 35e6, "cycles": 1e7, "slope": 29.6, "tensile_strength": 83e6}
+    found = flexible.fatigue(curve=SNCurve(material="PA66", **fine))
+    assert "the values are of PA66, and the cage is of brass" in found.table(1)
 
 
 def test_a_file_is_no_case(tmp_path):

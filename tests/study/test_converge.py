@@ -204,3 +204,12 @@ def test_a_real_study_keeps_its_windows(tmp_path, monkeypatch):
     monkeypatch.setattr(work, "simulate", FakeRun)
     assert converge(case, out=tmp_path, axes=["slices"], duration="34 ms").table() == first.table()
     assert not FakeRun.calls
+
+
+def test_what_is_no_case_is_told(tmp_path):
+    with pytest.raises(
+        InputError, match="case is 'mine.toml', but should be a Case; flexcage.load"
+    ):
+        converge("mine.toml", out=tmp_path)
+    with pytest.raises(InputError, match="Axis 'tolerances' is not known"):
+        converge(CASE, out=tmp_path, axes="tolerances")

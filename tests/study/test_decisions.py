@@ -227,3 +227,46 @@ def test_a_claim_without_a_figure_is_open():
     holes = table(x=[np.array([1.0, np.nan]), np.array([2.0, 3.0])])
     assert claim.evidence(holes) == decisions.NOTHING
     assert claim.contrary(table(x=(2.0, 1.0))) == ("up",)
+
+
+def rising(counts):
+    rng = np.random.default_rng(0)
+    found = {c: 10.0 + 3.0 * k + rng.normal(0.0, 0.5, n) for k, (c, n) in enumerate(counts)}
+    return claims.Trend("x", tuple(found)).evidence(lambda output, condition: found[condition])
+
+
+def test_starts_are_those_that_the_evidence_has():
+    """A later look has a higher level, which an earlier look's starts must not take."""
+    plan, eight = looks.Looks((8, 16)), rising([("a", 8), ("b", 8), ("c", 8)])
+    assert decisions.decide({"r": eight}, starts=8, looks=plan) == {"r": HOLDS}
+    with pytest.raises(InputError, match="claim 'r' is of 8 starts, but starts says 16"):
+        decisions.decide({"r": eight}, starts=16, looks=plan)
+    with pytest.raises(InputError, match="is of 3 to 8 starts, but starts says 16"):
+        whole = decisions.all_of([eight, rising([("a", 8), ("b", 3)])]).contrary
+        decisions.decide({"r": whole}, starts=16, looks=plan)
+    for of in (decisions.above([1.0, 2.0], 0.0), decisions.less([1.0, 2.0], [3.0, 4.0]),
+               decisions.equal([1.0, 2.0], [3.0, 4.0], within=0.1),
+               decisions.bending([[1, 2], [3, 4], [0, 2]], (1.0, 2.0, 3.0)),
+               decisions.turning([[3, 2], [1, 0], [4, 5]], turn=1)):  # fmt: skip
+        assert of.starts == {2}
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_no_test_takes_what_is_no_number(bad):
+    """NaN passed every comparison, and so every claim was undecided."""
+    for of in (
+        lambda: decisions.above([1.0, bad], 0.0),
+        lambda: decisions.less([1.0, 2.0], [bad, 4.0]),
+        lambda: decisions.equal([1.0, 2.0], [bad, 4.0], within=0.1),
+    ):
+        with pytest.raises(InputError, match="a value that is no number; leave it out"):
+            of()
+
+
+def test_conditions_and_looks_that_are_none():
+    for conditions in ("abc", ("a", "a")):
+        for part in (claims.Trend, claims.Between):
+            with pytest.raises(InputError, match="The conditions are .* labels that differ"):
+                part("x", conditions)
+    with pytest.raises(InputError, match="whole numbers that rise from 2"):
+        looks.Looks((8.5, 16))

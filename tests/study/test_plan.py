@@ -209,6 +209,7 @@ def test_mistakes_in_the_file(name, tmp_path, capsys):
             "say which element",
         ),
         (("element_omega[element=first].mean",), "counted from 0"),
+        (("cage_position[axis=y,axis=z].max",), "says twice which of one dimension is meant"),
         (("contact_angle.mean",), "is of balls, but the study's bearings have rollers"),
         (("contact_angle_inner",), "is of balls"),
         (("stress_peak",), "needs a flexible cage"),
@@ -357,3 +358,12 @@ def test_a_missing_package_is_named(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(cluster, "find_spec", lambda name: None)
     assert cli.main(["study", "run", str(study_file(tmp_path, LOAD)), "-o", str(tmp_path)]) == 1
     assert "sources:  pip install '.[study]'" in capsys.readouterr().err
+
+
+def test_one_axis_and_one_output_need_no_tuple():
+    """A text alone was taken for its letters."""
+    found = Study(
+        case=short_study().case, axes=Grid("load.radial", (1.0, 2.0)), outputs="cage_speed"
+    )
+    assert found.outputs == ("cage_speed",) and len(found.axes) == 1
+    assert len(make_plan(found).cases) == 2

@@ -209,3 +209,8 @@ def test_axes_that_change_together_are_refused(tmp_path):
     results = finished(tmp_path, Zip({"drive.speed": SPEEDS, "load.radial": LOADS[:3]}))
     with pytest.raises(InputError, match="axes must not change together"):
         response_surface(results, "cage_speed", models=("quadratic",))
+
+
+def test_a_surface_of_a_study_s_folder(tmp_path):
+    with pytest.raises(InputError, match="There is no folder '.*none'"):
+        response_surface(tmp_path / "none", "cage_speed")

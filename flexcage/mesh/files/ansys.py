@@ -67,7 +67,7 @@ def read_cdb(path: Path) -> RawMesh:
     text = text_of(path)
     refuse_commands(text)
     archive = read_archive(path, where="mesh.file")
-    node_numbers, points = nodes_of(archive, text)
+    node_numbers, points = nodes_of(text)
     _refuse_twice("node", node_numbers)
     _refuse_twice("element", archive.enum)
     row = {int(n): i for i, n in enumerate(node_numbers)}

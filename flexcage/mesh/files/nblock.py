@@ -1,7 +1,8 @@
 """Nodes of an Ansys archive, of whatever FORTRAN format its NBLOCK is.
 
 mapdl-archive reads rows that begin with three whole numbers, as CDWRITE writes them. Workbench
-writes one, (1i9,3e20.9e3), and the library then reads every z as zero.
+writes one, (1i9,3e20.9e3), and the library then reads every z as zero; of rows that do not stand in
+the columns of their format it makes numbers that nobody wrote. So rows are read here.
 """
 
 from __future__ import annotations
@@ -16,18 +17,15 @@ from flexcage.mesh.files.raw import Refused, lines_of, listed
 
 _BLOCK = re.compile(r"\s*NBLOCK\b", re.IGNORECASE)
 _FORMAT = re.compile(r"\s*\((\d*)i(\d+),(\d*)[efg](\d+)\.", re.IGNORECASE)
-_READ = 3  # whole numbers of a row that the library reads right
 
 
-def nodes_of(archive: Any, text: str) -> tuple[np.ndarray, np.ndarray]:
-    """Numbers (n,) and places (n, 3) of the nodes of an archive, whose text this is too."""
+def nodes_of(text: str) -> tuple[np.ndarray, np.ndarray]:
+    """Numbers (n,) and places (n, 3) of the nodes of an archive, by its text; Refused for rows that
+    are none."""
     lines = lines_of(text)
-    formats = [_FORMAT.match(lines[i + 1]) for i in _blocks(lines) if i + 1 < len(lines)]
-    if all(found and int(found[1] or 1) == _READ for found in formats):
-        return np.asarray(archive.nnum, np.int64), np.asarray(archive.nodes[:, :3], float)
     rows = [row for begin in _blocks(lines) for row in _rows(lines, begin)]
-    numbers, places = zip(*rows)
-    return np.array(numbers, np.int64), np.array(places, float)
+    numbers, places = zip(*rows) if rows else ((), ())
+    return np.array(numbers, np.int64), np.array(places, float).reshape(-1, 3)
 
 
 def refuse_turned(archive: Any) -> None:

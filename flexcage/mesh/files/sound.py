@@ -6,6 +6,8 @@ import logging
 from pathlib import Path
 
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from flexcage.core.errors import InputError
@@ -33,7 +35,7 @@ def sound_tetrahedra(raw: RawMesh, path: Path) -> np.ndarray:
     """Corners (m, 4) of a file's tetrahedra, turned if all are numbered the other way round.
 
     InputError for elements of no or negative volume, or in the place of others, with their numbers;
-    a warning for nodes that no element has.
+    a warning for nodes that no element has, and for voids inside.
     """
     tets = raw.tets
     _check_places(raw, path)
@@ -51,6 +53,7 @@ def sound_tetrahedra(raw: RawMesh, path: Path) -> np.ndarray:
         )
     _refuse_overlap(raw, tets, path)
     _warn_of_unused(raw, path)
+    _warn_of_voids(raw, tets, path)
     return tets
 
 
@@ -104,6 +107,26 @@ def _warn_of_unused(raw: RawMesh, path: Path) -> None:
         log.warning(
             "%s has nodes that no tetrahedron has (%d of %d): %s; they are left out",
             path, len(unused), len(used), raw.points_named(unused),
+        )  # fmt: skip
+
+
+def _warn_of_voids(raw: RawMesh, tets: np.ndarray, path: Path) -> None:
+    """Say where the surface is in several pieces, joined at edges by two faces each: beside the
+    outside each is a void, that may touch it at a node or along an edge."""
+    faces = tets[:, _FACES].reshape(-1, 3)
+    alike = first_alike(np.sort(faces, axis=1))
+    free = faces[np.bincount(alike, minlength=len(faces))[alike] == 1]
+    edges = first_alike(np.sort(free[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1))
+    of_two = np.bincount(edges, minlength=len(edges))[edges] == 2
+    again = np.flatnonzero(of_two & (edges != np.arange(len(edges))))
+    pairs = again // 3, edges[again] // 3
+    joined = coo_array((np.ones(len(again), bool), pairs), shape=(len(free), len(free)))
+    piece = connected_components(joined, directed=False)[1]
+    inner = piece != np.argmax(np.bincount(piece))
+    if inner.any():
+        log.warning(
+            "%s has %d voids inside, with the nodes %s: are elements missing there?",
+            path, len(np.unique(piece[inner])), raw.points_named(np.unique(free[inner])),
         )  # fmt: skip
 
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from flexcage.core.arrays import Damaged
 from flexcage.core.errors import InputError
+from flexcage.core.missing import POINTER, is_pointer
 from flexcage.mesh.files.raw import Refused, listed
 from flexcage.modes.door.body import MODAL, ReducedBody
 
@@ -67,6 +68,8 @@ def _told(path: Path, reason: object) -> str:
     """A reason that a reader can use; what libraries say of their insides is none."""
     if path.is_file() and path.stat().st_size == 0:
         return " (there is nothing in it)"
+    if is_pointer(path):
+        return f" ({POINTER})"
     if isinstance(reason, MemoryError):
         return " (memory has no room for matrices as large as it says)"
     return f" ({reason})" if isinstance(reason, Damaged) else ""
@@ -140,8 +143,8 @@ def from_matrices(found: Mapping[str, Any], path: Path, *, where: str) -> Conten
         _check_numbers(name, value, path, where)
     size = stiffness.shape[0]
     return Contents(
-        stiffness=stiffness,
-        mass=mass,
+        stiffness=_real(stiffness),
+        mass=None if mass is None else _real(mass),
         labels=None
         if labels is None
         else _whole(_wide(labels, 2, "DOFS", path, where), "DOFS", path, where),
@@ -160,13 +163,19 @@ def _check_numbers(name: str, value: Any, path: Path, where: str) -> None:
     if value is None:
         return
     kind, size = value.dtype.kind, value.ndim
-    if kind not in "biufc" or (size != 2 and name in "KM"):
-        found = "texts" if kind in "US" else f"an array of {size} dimensions"
+    if kind not in "iufc" or (size != 2 and name in "KM"):
+        words = {"U": "texts", "S": "texts", "b": "an array of true and false"}
+        found = words.get(kind, f"an array of {size} dimensions")
         raise InputError(
             f"{path}: {name} is {found}, but should be a table of numbers, of rows and columns.",
             where=where,
             value=str(path),
         )
+
+
+def _real(matrix: Any) -> Any:
+    """The matrix in real numbers: unsigned ones know no difference below zero."""
+    return matrix.astype(float) if matrix.dtype.kind in "iu" else matrix
 
 
 def to_matrices(body: ReducedBody) -> dict[str, Any]:

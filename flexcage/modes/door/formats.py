@@ -21,6 +21,7 @@ from flexcage.mesh.files.others import PACKED, told
 from flexcage.modes.door.body import MODAL, ReducedBody
 from flexcage.modes.door.checks import check_body
 from flexcage.modes.door.contents import Contents, Points
+from flexcage.modes.door.modal import check_named, check_usual, usual_dofs
 from flexcage.modes.door.nodes import read_points
 from flexcage.modes.door.systems import SI, SYSTEMS, System, coordinate_units
 
@@ -120,12 +121,15 @@ def _body(contents: Contents, points: Points | None, path: Path, where: str) -> 
     _check_shapes(contents, points, path, where)
     labels = contents.labels
     if labels is None:
-        dofs = _usual_dofs(size, len(points.numbers), reduced=contents.shapes is not None)
+        reduced = contents.shapes is not None
+        dofs = usual_dofs(contents.stiffness, len(points.numbers), reduced=reduced)
+        check_usual(contents.stiffness, dofs, np.sort(points.numbers), path, where)
         order = np.append(np.argsort(points.numbers, kind="stable"), MODAL)  # in rising order
         dofs[:, 0] = order[dofs[:, 0]]
     else:
         _check_from_one(labels, points.numbers, path, where)
         dofs = _by_place(labels, points.numbers)
+        check_named(contents.stiffness, dofs, labels, path, where)
     _refuse_same(dofs, points.numbers, path, where)
     place = {int(n): i for i, n in enumerate(points.numbers)}
     sets = {name: np.array([place[n] for n in v if n in place]) for name, v in points.sets.items()}
@@ -241,16 +245,6 @@ def _turn(dofs: np.ndarray, frames: np.ndarray, path: Path, where: str) -> sp.cs
     )
     entries = np.concatenate([values, np.ones(len(modal))])
     return sp.csr_matrix((entries, indices), shape=(len(dofs),) * 2)
-
-
-def _usual_dofs(size: int, nodes: int, *, reduced: bool) -> np.ndarray:
-    """Coordinates of a file that does not name them: all modal if it has shapes; else node by node,
-    six of each if there are so many, or three, and modal ones after them; modal alone if there are
-    fewer than three a node."""
-    each = 0 if reduced else next((d for d in (6, 3) if size >= d * nodes), 0)
-    own = np.stack(np.divmod(np.arange(each * nodes), max(each, 1)), axis=1)
-    modal = np.tile([MODAL, 0], (size - len(own), 1))
-    return np.concatenate([own, modal]).astype(np.int64)
 
 
 def _by_place(labels: np.ndarray, numbers: np.ndarray) -> np.ndarray:

@@ -60,7 +60,7 @@ def _contents(path: Path, where: str) -> Contents:
     numbers, places, sets = read_nodes(path)
     inside = np.isin(labels[:, 0], numbers)
     if len(numbers):
-        labels = np.where(inside[:, None], labels, labels * [1, 0])
+        labels = np.where(inside[:, None], labels, labels * [-1, 1])  # of no node in any deck
     own = dict(_own(lines))
     shapes = own.get("SHAPES")
     return Contents(

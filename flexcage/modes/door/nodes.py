@@ -19,6 +19,7 @@ from flexcage.modes.door.contents import Points, unreadable
 from flexcage.modes.door.nastran import nastran
 
 _NOT_FOLLOWED = ("INCLUDE", "GRDSET", "GRIDB", "GRIDG", "EGRID", "GRIDA")
+_COMMENT = re.compile(r"(?<=[^\n\r$])\$[^\n\r]*")  # after an entry
 _END = re.compile(r"^ENDDATA\b", re.MULTILINE | re.IGNORECASE)  # what follows is no part of a deck
 _SYSTEMS = ("CORD1R", "CORD1C", "CORD1S", "CORD3G")  # pyYeti reads CORD2R, CORD2C and CORD2S
 
@@ -49,7 +50,8 @@ def read_grids(path: Path, *, where: str, needed: bool = True) -> Points | None:
     """
     bulk = nastran("bulk")
     try:
-        text = _END.split(text_of(path).expandtabs(8))[0]
+        text = _END.split(bulk_text(path))[0]
+        _refuse_out_of_columns(text)
         table = np.asarray(bulk.rdgrids(StringIO(text)), float)
         some = table.ndim == 2 and bool(table.size)
         systems = some and bool(table[:, [1, 5]].any())
@@ -78,6 +80,33 @@ def _refuse_entries(text: str, *, systems: bool) -> None:
                 f"line {line}: the entry {name[0]} is not followed, and gives, places or turns "
                 "grids; write all GRID entries into one file, in the basic system"
             )
+
+
+def bulk_text(path: Path) -> str:
+    """Text of a bulk file with tabs as blanks, and without comments at the ends of entries: a comma
+    in one makes pyYeti take the entry for one parted by commas."""
+    text = text_of(path).expandtabs(8)
+    return _COMMENT.sub("", text) if "$" in text else text
+
+
+def _refuse_out_of_columns(text: str) -> None:
+    """Refuse GRID entries of which pyYeti would make other numbers."""
+    for line, row in enumerate(lines_of(text), start=1):
+        if _out_of_columns(row):
+            raise Refused(
+                f"line {line}: '{row.strip()}' is no GRID entry, whose fields are eight columns "
+                "wide (sixteen after GRID*) or parted by commas"
+            )
+
+
+def _out_of_columns(row: str) -> bool:
+    """Is it a GRID entry whose fields do not stand in their columns, as where blanks part them?"""
+    row = row.rstrip()
+    if "," in row or row.upper().split()[:1] not in (["GRID"], ["GRID*"]) or row[0].isspace():
+        return False
+    wide = 16 if "*" in row[:8] else 8
+    fields = [row[at : at + wide] for at in range(8, min(len(row), 72), wide)]
+    return len(row[:8].split()) > 1 or any(len(field.split()) > 1 for field in fields)
 
 
 def _refuse_twice(numbers: np.ndarray) -> None:
@@ -118,7 +147,7 @@ def _ansys(path: Path, *, where: str) -> Points:
     try:
         refuse_commands(text, nodes_alone=True)
         refuse_turned(archive)
-        numbers, places = nodes_of(archive, text)
+        numbers, places = nodes_of(text)
     except Refused as error:
         raise unreadable(path, error, where=where) from error
     sets = {str(n).lower(): np.asarray(v) for n, v in archive.node_components.items()}

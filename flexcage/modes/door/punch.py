@@ -16,7 +16,6 @@ import numpy as np
 
 from flexcage.core.arrays import Damaged
 from flexcage.core.memory import in_bytes, total_memory
-from flexcage.mesh.files.raw import text_of
 from flexcage.modes.door.body import ReducedBody
 from flexcage.modes.door.contents import (
     MASS,
@@ -31,7 +30,7 @@ from flexcage.modes.door.contents import (
     warn_of_damping,
 )
 from flexcage.modes.door.nastran import nastran
-from flexcage.modes.door.nodes import read_grids
+from flexcage.modes.door.nodes import bulk_text, read_grids
 
 # the first entry of a matrix, which has 0 where the others have a grid
 _HEADS = re.compile(r"^DMIG\*?[ ,]+(\w+)[ ,]+0[ ,]", re.MULTILINE | re.IGNORECASE)
@@ -42,7 +41,7 @@ def read(path: Path, *, where: str) -> Contents:
     """Stiffness and mass of the DMIG entries, and the file's own GRID entries."""
     module = _module()
     try:
-        text = text_of(path).expandtabs(8)
+        text = bulk_text(path)
         refuse_twice(_HEADS.findall(text), path, where=where)
         _check_room(text)
         found = module.rddmig(StringIO(text), square=True, expanded=False)
