@@ -134,7 +134,8 @@ def _timed(study: Study, folder: Path, *, workers: int) -> dict[str, Any]:
 def _scheduler_seconds() -> float:
     """Processor time of the local cluster's scheduler so far."""
     for child in psutil.Process().children():
-        if "distributed.cli.dask_scheduler" in child.cmdline():
+        words = " ".join(child.cmdline())
+        if "dask_process" in words and "://" not in words:  # workers have its address
             return sum(child.cpu_times()[:2])
     return float("nan")
 
