@@ -37,7 +37,7 @@ from flexcage.system.statics.options import AT_START
 from flexcage.system.statics.rings import BentRing, Rings
 from flexcage.system.statics.solution import StaticSolution
 from flexcage.system.statics.solve import solve_bearing
-from flexcage.system.statics.yielding import compliance_of
+from flexcage.system.statics.yielding import compliance_of, questioned
 from flexcage.system.swinging import no_swings
 
 # mesh and reduction: the second is None for a rigid cage, both are where there is none
@@ -207,5 +207,7 @@ def assembled_start(
     if bearing.rings:
         lands = left_by_lands(bearing.rings, bearing.data.model.land)
         start = replace(start, warnings=(*start.warnings, *bearing.rings.warnings, *lands))
+    odd = questioned(specs.mount, specs.bearing, bearing.seat)
+    start = replace(start, warnings=(*start.warnings, *odd))
     start = with_push(start, bearing.layout, specs.start)
     return constrained(start, bearing, specs.constraints, limit_force=limit)

@@ -22,7 +22,7 @@ from flexcage.system.statics.options import AT_START, StaticOptions
 from flexcage.system.statics.rings import BentRing, Rings
 from flexcage.system.statics.solution import StaticSolution
 from flexcage.system.statics.solve import solve_bearing
-from flexcage.system.statics.yielding import compliance_of
+from flexcage.system.statics.yielding import compliance_of, questioned
 
 log = logging.getLogger(__name__)
 
@@ -35,13 +35,15 @@ def solve_static(case: StaticCase, *, options: StaticOptions | None = None) -> S
     Raises InputError for a load that the bearing cannot bear, RunFailed if none is found.
     """
     expect(case, (StaticCase, Case), "case", "flexcage.load_static reads one from a file")
+    seat = compliance_of(case.mount, case.bearing)
     solution = solve_bearing(
         case.bearing, statics_of(case.bearing), load=case.load, speed=case.speed,
         contacts=case.contacts, lubricant=case.lubricant, options=options or case.static,
         rings=Rings(case.inner_ring, case.outer_ring, sections_of(case.bearing)),
-        seat=compliance_of(case.mount, case.bearing),
+        seat=seat,
     )  # fmt: skip
-    said = (*not_used(case), *(text for _, text in odd_values(case)))
+    odd = (text for _, text in odd_values(case))
+    said = (*not_used(case), *odd, *questioned(case.mount, case.bearing, seat))
     return replace(solution, warnings=(*said, *solution.warnings)) if said else solution
 
 

@@ -19,6 +19,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from flexcage.core.errors import FlexcageError, InputError
+from flexcage.core.units import describe
 from flexcage.fem.linear import available_kinds, linear_solver
 from flexcage.modes.door.body import ReducedBody, rigid_motions
 from flexcage.modes.door.formats import read_body
@@ -28,6 +29,8 @@ from flexcage.system.spec import Mount
 WHERE = "mount.body"
 _OFF = 0.02  # of the seat's radius, that a node may lie off it: facets of a coarse mesh
 _CENTRE = 0.01  # of the seat's radius, that a single node may lie off the bearing's centre
+# assumptions, of E B: brackets are a hundred times softer, a solid all round is not ten times stiffer
+_SOFTEST, _STIFFEST = 5e-3, 30.0
 _SINGULAR = 1e-11  # of the scaled stiffness's largest eigenvalue
 _FIVE = [0, 1, 2, 4, 5]  # x, y, z and tilts about y, z of six motions
 
@@ -49,6 +52,20 @@ def seat_compliance(mount: Mount, *, diameter: float, width: float) -> np.ndarra
     make = _following if mount.seat_tie == "rigid" else _averaged
     whole = make(body, own, motions)
     return 0.5 * (whole + whole.T)[np.ix_(_FIVE, _FIVE)]
+
+
+def odd_seat(compliance: np.ndarray, mount: Mount, *, modulus: float, width: float) -> str:
+    """A sentence on a seat of ``mount.body`` that is far softer or stiffer across the axis than a
+    solid of this modulus [Pa] as wide as the bearing, E B; "" for a usual one."""
+    stiffness = 1.0 / float(compliance[1:3, 1:3].trace() / 2.0)
+    share = stiffness / (modulus * width)
+    if not mount.body or _SOFTEST <= share <= _STIFFEST:
+        return ""
+    return (
+        f"the seat of mount.body bears {describe(stiffness, 'N/um')} across the axis, {share:.2g} "
+        "times what a solid of the rings' steel as wide as the bearing does: are its stiffness and "
+        f"its nodes in mount.body_units '{mount.body_units}'?"
+    )
 
 
 def seat_nodes(body: ReducedBody, mount: Mount, *, diameter: float, width: float) -> np.ndarray:

@@ -25,7 +25,7 @@ from flexcage.static import solve_static
 from flexcage.system.seat import seat_compliance
 from flexcage.system.spec import Load, Mount
 from flexcage.system.statics.solve import solve_bearing
-from flexcage.system.statics.yielding import on_seat
+from flexcage.system.statics.yielding import on_seat, questioned
 
 STEEL = MATERIALS["steel"]
 RADIUS, WALL, WIDTH = 40e-3, 12e-3, 16e-3  # of the seat, of the housing
@@ -252,6 +252,17 @@ def test_in_a_case_file(file, tmp_path, monkeypatch):
         flexcage.load_case(path)
     with pytest.raises(InputError, match="'mount.mass' takes no part in a static solution"):
         flexcage.load_static(path, overrides={"mount.mass": "1 kg"})
+
+
+@pytest.mark.parametrize(("factor", "odd"), [(1.0, False), (1e-3, True), (1e3, True)])
+def test_a_housing_far_softer_or_stiffer_than_steel_is_questioned(file, bearing, factor, odd):
+    """As of a stiffness in N/mm that was taken for N/m, or the other way round."""
+    mount = Mount(body=file)
+    said = questioned(mount, bearing, compliance(file) / factor)
+    assert bool(said) == odd
+    if odd:
+        assert "mount.body_units 'm-kg-s'" in said[0] and "N/um across the axis" in said[0]
+    assert not questioned(Mount(kind="bushing"), bearing, compliance(file) / factor)
 
 
 # --- what does not fit ---------------------------------------------------------------------------

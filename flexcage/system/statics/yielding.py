@@ -39,6 +39,17 @@ def compliance_of(mount: Mount, bearing: Bearing) -> np.ndarray | None:
     return seat_compliance(mount, diameter=bearing.outside_diameter, width=bearing.width)
 
 
+def questioned(mount: Mount, bearing: Bearing, seat: np.ndarray | None) -> tuple[str, ...]:
+    """A sentence on a housing's seat that is hardly meant; none for a usual one, or no housing."""
+    if seat is None or not mount.body:
+        return ()
+    from flexcage.system.seat import odd_seat
+
+    modulus = bearing.material.youngs_modulus
+    said = odd_seat(seat, mount, modulus=modulus, width=bearing.width)
+    return (said,) if said else ()
+
+
 def balance_on_seat(problem: Problem, compliance: np.ndarray) -> Posture:
     """Posture of the inner ring relative to the outer one, which moves with its seat.
 
