@@ -29,7 +29,7 @@ from flexcage.system.spec import Mount
 WHERE = "mount.body"
 _OFF = 0.02  # of the seat's radius, that a node may lie off it: facets of a coarse mesh
 _CENTRE = 0.01  # of the seat's radius, that a single node may lie off the bearing's centre
-# assumptions, of E B: brackets are a hundred times softer, a solid all round is not ten times stiffer
+# assumptions, of E B: brackets are a hundred times softer, a solid all round is hardly stiffer
 _SOFTEST, _STIFFEST = 5e-3, 30.0
 _SINGULAR = 1e-11  # of the scaled stiffness's largest eigenvalue
 _FIVE = [0, 1, 2, 4, 5]  # x, y, z and tilts about y, z of six motions
