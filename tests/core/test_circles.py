@@ -9,7 +9,6 @@ import pytest
 ROOT = Path(__file__).parents[2] / "flexcage"
 #: Imports that close a circle; none may be added. Those of the equations go with the new assembly.
 OPEN = {
-    ("flexcage.system.statics.table", "flexcage.system.statics.solution"),
     ("flexcage.system.motion", "flexcage.system.problem"),
     ("flexcage.system.motion", "flexcage.system.start"),
 }

@@ -18,7 +18,8 @@ from flexcage.system.statics.elements import ElementLoads, Elements, ElementsOf
 from flexcage.system.statics.equilibrium import Problem, balance, tangent
 from flexcage.system.statics.options import StaticOptions
 from flexcage.system.statics.rings import BentRing, Rings, balance_with_rings
-from flexcage.system.statics.solution import Ratings, StaticSolution
+from flexcage.system.statics.solution import StaticSolution
+from flexcage.system.statics.state import Ratings
 from flexcage.system.statics.yielding import balance_on_seat, on_seat
 
 _PLACES = ("load.axial", "load.radial", "load.radial", "load.moment_y", "load.moment_z")

@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 from math import degrees, isfinite, pi
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from flexcage.core import html
 from flexcage.core.listing import aligned, wrapped
-
-if TYPE_CHECKING:
-    from flexcage.system.statics.rings import BentRing
-    from flexcage.system.statics.solution import StaticSolution
+from flexcage.system.statics.rings import BentRing
+from flexcage.system.statics.state import StaticState
 
 _AXES = ("x", "y", "z", "tilt y", "tilt z")
 _SMALL = 1e-9  # of the largest of its kind: shown as 0
 
 
-def table_of(s: StaticSolution, width: int = 0) -> str:
+def table_of(s: StaticState, width: int = 0) -> str:
     """Displacements, stiffness, life, and a line for every rolling element; in lines of at most
     ``width`` characters (0: as the terminal is wide)."""
 
@@ -36,7 +33,7 @@ def table_of(s: StaticSolution, width: int = 0) -> str:
     return "\n\n".join(parts)
 
 
-def html_of(s: StaticSolution) -> str:
+def html_of(s: StaticState) -> str:
     """Warnings, displacements and life; stiffness and elements unfold."""
     title, *held = _head(s).split("\n")
     elements = html.paragraphs([_element_note(s)]) + _html_grid(_element_lines(s), sides="r")
@@ -59,7 +56,7 @@ def _html_grid(lines: list[list[str]], *, sides: str = "lr") -> str:
     return html.table(lines[1:], heads=lines[0], sides=sides)
 
 
-def _peaks(s: StaticSolution) -> list[list[str]]:
+def _peaks(s: StaticState) -> list[list[str]]:
     return [
         ["loaded elements", f"{s.loaded} of {len(s.elements.azimuth)}"],
         ["largest force on a race", f"{s.largest_force:.5g} N"],
@@ -67,7 +64,7 @@ def _peaks(s: StaticSolution) -> list[list[str]]:
     ]
 
 
-def _head(s: StaticSolution) -> str:
+def _head(s: StaticState) -> str:
     held = f"\ninner ring: {s.held}" if s.held else ""
     return f"{s.title}, inner ring at {s.speed * 30.0 / pi:.6g} rpm{held}"
 
@@ -78,7 +75,7 @@ def _clean(values: np.ndarray) -> np.ndarray:
     return np.where(size <= _SMALL * size.max(), 0.0, values)
 
 
-def _ring_lines(s: StaticSolution) -> list[list[str]]:
+def _ring_lines(s: StaticState) -> list[list[str]]:
     force, moved = _clean(s.load), _clean(s.displacement)
     reaction = np.where(np.abs(s.reaction) > _SMALL * np.abs(s.load).max(), s.reaction, 0.0)
     lines = [["", *_AXES], ["load, N and N m", *map(_short, force)]]
@@ -91,7 +88,7 @@ def _ring_lines(s: StaticSolution) -> list[list[str]]:
     return lines
 
 
-def _stiffness_lines(s: StaticSolution) -> list[list[str]]:
+def _stiffness_lines(s: StaticState) -> list[list[str]]:
     unit = np.where(np.arange(5) < 3, 1e6, 1e3)  # per um, per mrad
     matrix = s.stiffness / unit
     diagonal = np.sqrt(np.abs(np.outer(np.diag(matrix), np.diag(matrix))))
@@ -103,7 +100,7 @@ def _stiffness_lines(s: StaticSolution) -> list[list[str]]:
     return lines
 
 
-def _life_lines(s: StaticSolution) -> list[list[str]]:
+def _life_lines(s: StaticState) -> list[list[str]]:
     r = s.ratings
     static, dynamic = r.names
     lines = [
@@ -121,7 +118,7 @@ def _life_lines(s: StaticSolution) -> list[list[str]]:
     return lines
 
 
-def _element_note(s: StaticSolution) -> str:
+def _element_note(s: StaticState) -> str:
     note = (
         "Q force, p largest pressure, a and b half of the contact across and in rolling direction"
     )
@@ -132,7 +129,7 @@ def _element_note(s: StaticSolution) -> str:
     return note
 
 
-def _element_lines(s: StaticSolution) -> list[list[str]]:
+def _element_lines(s: StaticState) -> list[list[str]]:
     e = s.elements
     balls = bool(np.isfinite(e.edge).any() or np.nanmax(np.abs(e.angle), initial=0.0) > 0.0)
     names = ["element", "azimuth, deg", "Q inner, N", "Q outer, N"]
