@@ -23,6 +23,7 @@ from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.quality import check_mesh
 from flexcage.modes.reduction import CageReduction
 from flexcage.modes.table import ModeTable
+from flexcage.system.begun import Start
 from flexcage.system.bending import rigid_rings
 from flexcage.system.bodies import heaviest_load, in_housing
 from flexcage.system.constraints import names_of
@@ -32,7 +33,7 @@ from flexcage.system.problem import Bearing
 from flexcage.system.ring_modes import DAMPED
 from flexcage.system.ring_walls import lands_follow
 from flexcage.system.rings_in_motion import MovingRings, moving_rings
-from flexcage.system.start import Start, constrained, find_start, with_push
+from flexcage.system.start import constrained, find_start, with_push
 from flexcage.system.statics.options import AT_START
 from flexcage.system.statics.rings import BentRing, Rings
 from flexcage.system.statics.solution import StaticSolution

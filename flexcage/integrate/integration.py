@@ -34,6 +34,7 @@ from flexcage.solve.contract import (
 )
 from flexcage.solve.integrators import INTEGRATORS
 from flexcage.solve.options import SolverOptions
+from flexcage.system.begun import Start
 from flexcage.system.data import (
     EVENT_CLOSED,
     EVENT_ELEMENT,
@@ -44,7 +45,6 @@ from flexcage.system.data import (
 )
 from flexcage.system.problem import Bearing
 from flexcage.system.scales import work_weights
-from flexcage.system.start import Start
 
 log = logging.getLogger(__name__)
 

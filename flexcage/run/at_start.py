@@ -17,7 +17,7 @@ from flexcage.results.warnings import AT_START, Setup, of_statics, warnings_of
 from flexcage.stress.operators import von_mises
 from flexcage.stress.recovery import CageLoads
 from flexcage.stress.run_stress import recovery_of
-from flexcage.system.start import Start
+from flexcage.system.begun import Start
 
 log = logging.getLogger(__name__)
 

@@ -38,7 +38,7 @@ from flexcage.stress.series import ABOUT_PEAK, frames, samples_near
 from flexcage.stress.sn_curves import SNCurve
 from flexcage.stress.wear import Wear, wear
 from flexcage.stress.wear_laws import WearLaw, wear_law
-from flexcage.system.start import Start
+from flexcage.system.begun import Start
 from flexcage.system.statics.rings import SeatedRing
 
 if TYPE_CHECKING:

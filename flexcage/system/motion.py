@@ -5,20 +5,17 @@ from __future__ import annotations
 from collections import namedtuple
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
+from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
 from flexcage.bodies.floating_frame import BodyData
 from flexcage.contacts.land import LandData
 from flexcage.contacts.spec import Contacts, Lubricant
+from flexcage.system.begun import Advance, Start, StaticStart
 from flexcage.system.data import Bodies, RingBody, Work
 from flexcage.system.layout import Layout
 from flexcage.system.spec import Drive, Load, Mount
-
-if TYPE_CHECKING:
-    from flexcage.system.problem import Bearing
-    from flexcage.system.start import Advance, Start, StaticStart
 
 
 class Model(Protocol):
@@ -44,6 +41,7 @@ class Model(Protocol):
 
 M = TypeVar("M", bound=Model)
 Built = TypeVar("Built", bound=Model, covariant=True)
+Assembled = TypeVar("Assembled", contravariant=True)  # a ``problem.Bearing``
 
 
 class BuildModel(Protocol[Built]):
@@ -56,11 +54,16 @@ class BuildModel(Protocol[Built]):
     ) -> Built: ...  # fmt: skip
 
 
-class FindStart(Protocol):
+class FindStart(Protocol[Assembled]):
     """Assembles a bearing and brings it to equilibrium at the drive's first speed."""
 
     def __call__(
-        self, bearing: Bearing, *, limit_force: float, statics: StaticStart | None, advance: Advance
+        self,
+        bearing: Assembled,
+        *,
+        limit_force: float,
+        statics: StaticStart | None,
+        advance: Advance,
     ) -> Start: ...
 
 
@@ -118,7 +121,7 @@ class Motion(Generic[M]):
     faces: tuple[str, ...]
     uncaged: tuple[tuple[Callable[..., None], ...], tuple[str, ...]]
     ribs: tuple[str, ...]
-    start: FindStart
+    start: FindStart[Any]
     error_weights: Callable[[M, Layout, float], np.ndarray]  # see ``scales.shared_weights``
     linearise: Callable[..., None] | None = None
     implicit_share: float = 0.0  # "auto" takes implicit steps below this many solver.stable_step

@@ -2,39 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from flexcage.contacts.evaluation import REPORT
 from flexcage.contacts.land import DRY, FILM, NONE, LandData
 from flexcage.core.errors import InputError, RunFailed
+from flexcage.system.begun import Advance, Start, StaticStart
 from flexcage.system.constraints import POSITION, check_independent
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
 from flexcage.system.scales import ERROR_RATE
 from flexcage.system.spec import Constraint, StartOptions
-from flexcage.system.statics.solution import StaticSolution
 
-StaticStart = Callable[[], StaticSolution]
-Advance = Callable[[float], None]
 # of a land's clearance, by which the cage may lean at the start; a film grows stiff beyond
 _CLEAR = {DRY: 0.9, FILM: 0.5}
 _ONTO, _NEAR = 40, 1e-12  # steps onto constraints; [m, rad] how near they must come
-
-
-@dataclass(frozen=True)
-class Start:
-    """Where a run begins: y and y', and what the assembly of the bearing took."""
-
-    y: np.ndarray
-    yd: np.ndarray
-    pinched: tuple[int, ...]  # pockets that hold their roller with force
-    pinch_force: float  # largest [N]
-    residual: float  # of the equilibrium, as a share of the load
-    station: np.ndarray  # (Z, 4, nst, 3) station forces on the cage
-    warnings: tuple[str, ...] = ()  # of the static solution, sentences
 
 
 def find_start(

@@ -16,8 +16,8 @@ from flexcage.integrate.integration import Integration
 from flexcage.integrate.recorded import new_store
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.stages import cage_mesh
+from flexcage.system.begun import Start
 from flexcage.system.problem import Bearing
-from flexcage.system.start import Start
 
 RPM = pi / 30.0
 BASE = {

@@ -17,8 +17,8 @@ from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.reduction import CageReduction
 from flexcage.modes.spec import ModesSpec
 from flexcage.stages import cage_mesh, cage_reduction
+from flexcage.system.begun import Start
 from flexcage.system.problem import Bearing
-from flexcage.system.start import Start
 
 BASE = {
     "bearing": {"preset": "N1013"},

@@ -18,10 +18,11 @@ from flexcage.bearings.ball.bearing import BallBearing
 from flexcage.bearings.ball.model import BallModel
 from flexcage.bearings.ball.spot import BallSpot
 from flexcage.bodies.floating_frame import BodyData
+from flexcage.system.begun import Advance, Start, StaticStart
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
 from flexcage.system.rings_in_motion import SIDES
-from flexcage.system.start import Advance, Start, StaticStart, made_room
+from flexcage.system.start import made_room
 from flexcage.system.statics.solution import StaticSolution
 
 _ALIKE = 1e-3  # rad: contact angles closer than this leave a ball's axis to their mean

@@ -29,6 +29,7 @@ from flexcage.contacts.state import U_SKEW, U_TILT
 from flexcage.contacts.uneven import is_uneven
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.geometry.kinematics import epicyclic
+from flexcage.system.begun import Advance, Start, StaticStart
 from flexcage.system.constraints import OFF, no_rows
 from flexcage.system.data import INNER_RACE, OUTER_RACE
 from flexcage.system.layout import Layout
@@ -38,7 +39,7 @@ from flexcage.system.problem import Bearing
 from flexcage.system.ring import CLEARANCE
 from flexcage.system.ring_walls import lands_follow
 from flexcage.system.rings_in_motion import MovingRings, held_rings
-from flexcage.system.start import Advance, Start, StaticStart, made_room
+from flexcage.system.start import made_room
 from flexcage.system.swinging import standing
 
 _SMALL = 1e-7  # of the load: where an equilibrium is accepted
