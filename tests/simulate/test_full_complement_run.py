@@ -11,6 +11,7 @@ from flexcage.case import load_case
 from flexcage.core.errors import InputError
 from flexcage.results.features import cage_motion_features
 from flexcage.results.instrument import of_run
+from flexcage.study import work
 from flexcage.study.axes import Grid
 from flexcage.study.compare import compare
 
@@ -113,6 +114,16 @@ def test_a_study_refuses_what_none_of_its_cases_has(tmp_path, model, output, why
     asked = study(case, "load.radial", ("300 N", "400 N"), output)
     with pytest.raises(InputError, match=why):
         run_study(asked, out=tmp_path / "study", workers=1)
+
+
+def test_workers_compile_its_kernels_by_a_run_of_two_samples(monkeypatch):
+    """Not by one with a rigid cage, as those of other cases."""
+    ran = []
+    monkeypatch.setattr(work.kernel_marks, "kernels_cached", lambda what: False)
+    monkeypatch.setattr(work, "simulate", ran.append)
+    work.compile_kernels(load_case(BALLS))
+    (case,) = ran
+    assert case.cage is None and case.solver.duration * case.output.rate == pytest.approx(2.0)
 
 
 def test_two_runs_without_a_cage_are_compared(run, tmp_path):
