@@ -12,6 +12,7 @@ import numpy as np
 from flexcage.bodies.floating_frame import BodyData
 from flexcage.contacts.land import LandData
 from flexcage.contacts.spec import Contacts, Lubricant
+from flexcage.core.errors import InputError
 from flexcage.system.begun import Advance, Start, StaticStart
 from flexcage.system.data import Bodies, RingBody, Work
 from flexcage.system.layout import Layout
@@ -107,8 +108,9 @@ class Motion(Generic[M]):
     functions ``separate``, of the same arguments, as values: they are compiled on their own, by
     another process at the same time, and follow the laws in ``law``; the longest first. ``faces``
     names the faces of a pocket; ``uncaged`` has both of a bearing without a cage, where next
-    elements may stand for faces. ``ribs`` names what else an element may touch besides its races: a
-    bearing has the first of them, as many as ``new_work`` makes room for.
+    elements may stand for faces (None: it always has one). ``ribs`` names what else an element may
+    touch besides its races: a bearing has the first of them, as many as ``new_work`` makes room
+    for.
     ``linearise(t, y, yd, data)`` fills the tangent, in plain Python that is compiled when an
     implicit method asks for it; None: mode TANGENT of ``evaluate`` does.
     """
@@ -119,11 +121,11 @@ class Motion(Generic[M]):
     evaluate: Callable[..., None]
     separate: tuple[Callable[..., None], ...]
     faces: tuple[str, ...]
-    uncaged: tuple[tuple[Callable[..., None], ...], tuple[str, ...]]
     ribs: tuple[str, ...]
     start: FindStart[Any]
     error_weights: Callable[[M, Layout, float], np.ndarray]  # see ``scales.shared_weights``
     linearise: Callable[..., None] | None = None
+    uncaged: tuple[tuple[Callable[..., None], ...], tuple[str, ...]] | None = None
     implicit_share: float = 0.0  # "auto" takes implicit steps below this many solver.stable_step
     implicit_weights: Callable[[M, Layout, float], np.ndarray] | None = None  # None: error_weights
 
@@ -131,6 +133,13 @@ class Motion(Generic[M]):
     def without_cage(self) -> Motion[M]:
         """The same of bearings without a cage. "auto" takes explicit steps: Newton's matrix lacks
         how neighbours couple, and implicit ones are short while they touch."""
+        if self.uncaged is None:
+            raise InputError(
+                "The motion of such bearings is not computed without a cage: cage.model is 'none'; "
+                "take 'rigid' or 'flexible'.",
+                where="cage.model",
+                value="none",
+            )
         separate, faces = self.uncaged
         return replace(self, separate=separate, faces=faces, implicit_share=0.0)
 

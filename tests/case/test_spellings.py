@@ -22,6 +22,7 @@ RPM, DEG = pi / 30.0, pi / 180.0
 AMBIGUOUS = "revolutions or radians"
 OTHER = "another kind"
 UNKNOWN = "not a known unit"
+GROUPS = "write thousands without marks"
 
 # kind: value in SI, or words of the sentence that refuses, and the spellings that have it
 SPELLINGS: dict[str, tuple[tuple[float | str, str], ...]] = {
@@ -41,7 +42,8 @@ SPELLINGS: dict[str, tuple[tuple[float | str, str], ...]] = {
             "1 1/s | 1 s^-1 | 1 s-1 | 1 s⁻¹ | 1/s | 1 Hz | 1 kHz | 1 1/h | 1 1/ms | 1 hertz",
         ),
         (OTHER, "1 m/s | 1 rad | 1 rpm/s | 1 deg | 1 min | 1 rad^2/s | 1 %"),
-        (UNKNOWN, "6 000 rpm | 1 u/mn | 1_000 rpm | 1 100*rpm | 6000 rpm% | 1 Bq | 1 baud"),
+        (GROUPS, "6 000 rpm | 1_000 rpm"),
+        (UNKNOWN, "1 u/mn | 1 100*rpm | 6000 rpm% | 1 Bq | 1 baud"),
     ),
     "angular acceleration": (
         (1.0, "1 rad/s^2 | 1 rad/s2 | 1 rad/s² | 1 rad s^-2 | 1 rad/s/s"),
@@ -138,7 +140,8 @@ SPELLINGS: dict[str, tuple[tuple[float | str, str], ...]] = {
         ("is 'kN' meant", "1 kn | 1 KN"),
         (4.4482216152605, "1 lbf"),
         (OTHER, "1 kg | 1 lb | 1 N*m | 1 N/mm"),
-        (UNKNOWN, "1 kNn | 1 000 N"),
+        (UNKNOWN, "1 kNn"),
+        (GROUPS, "1 000 N"),
     ),
     "stiffness": (
         (1.0, "1 N/m | 1e-3 N/mm | 1e-6 N/um | 1e-6 N/µm | 1e-3 kN/m | 1 N*m^-1"),

@@ -10,6 +10,7 @@ from simulate_cases import n1013
 import flexcage
 from flexcage.contacts import laws
 from flexcage.contacts.spec import NORMAL_LAWS as SPECS
+from flexcage.core.errors import InputError
 from flexcage.results.audit import EXCEEDED, OF_DRIVE, PASSED, energy_audit
 
 # without rolling resistance, which takes 97 % of what the drive does and would hide it
@@ -27,7 +28,7 @@ def stronger_on_the_way_in(n, d, v, onset, p, F, Fe, Fd, Fv):
         K = p[0] * (1.0 + 0.2 * v[k] / (abs(v[k]) + 0.01))
         F[k] = Fe[k] = K * depth ** p[1]
         Fd[k] = K * p[1] * depth ** (p[1] - 1.0)
-        Fv[k] = 0.0
+        Fv[k] = p[0] * 0.2 * 0.01 / (abs(v[k]) + 0.01) ** 2 * depth ** p[1]
 
 
 @pytest.fixture(scope="module")
@@ -44,7 +45,14 @@ def audited(law: str, place: str, **changes):
     return energy_audit(run.dataset)
 
 
-def test_a_race_that_takes_energy_unseen(faulty):
+def test_such_a_law_is_refused_before_a_run(faulty):
+    with pytest.raises(InputError, match="gives Fe = .* which is not F at rest there"):
+        audited(faulty, "race")
+
+
+def test_a_race_that_takes_energy_unseen(faulty, monkeypatch):
+    """If nobody tries its law beforehand."""
+    monkeypatch.setattr(laws, "check_normal", lambda *law: None)
     sound, wrong = (audited(law, "race") for law in ("elastic", faulty))
     assert sound.verdict == PASSED
     assert wrong.verdict == EXCEEDED and wrong.of_drive > OF_DRIVE > 5.0 * sound.of_drive

@@ -65,7 +65,7 @@ def test_a_ball_over_the_spall_bears_little_and_energy_balances(spalled):
     off = np.angle(np.exp(1j * ds["element_position"].sel(cyl="psi").values)) * race
     outer = ds["race_force"].sel(race="outer").values
     over, beside = np.abs(off) < 0.15e-3, (np.abs(off) > 2e-3) & (np.abs(off) < 4e-3)
-    assert over.sum() > 20 and (outer[over] == 0.0).any()
+    assert over.sum() > 20 and outer[over].min() < 1.0
     assert np.mean(outer[beside]) > 300.0 and np.mean(outer[over]) < 0.5 * np.mean(outer[beside])
     assert spalled.summary.row("energy_audit").value == "passed"
 

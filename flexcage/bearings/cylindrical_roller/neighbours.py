@@ -23,9 +23,9 @@ from flexcage.contacts.roller_beside import (
     touch_roller,
 )
 from flexcage.contacts.slices import Laws, friction_power, stored_and_damped
-from flexcage.contacts.state import KEPT_AXES, KEPT_V, KEPT_W
+from flexcage.contacts.state import KEPT_AXES, KEPT_V, KEPT_W, add_force_and_moment
 from flexcage.core.jit import fields, outlined, part, zero
-from flexcage.core.vectors import minus, row, times, xyz
+from flexcage.core.vectors import minus, row, times, turn_of, xyz
 from flexcage.system.data import IN_CONTACTS, NEIGHBOUR_DAMPING, NEIGHBOUR_FRICTION, POCKET
 from flexcage.system.layout import of_element
 
@@ -100,10 +100,8 @@ def _touch(i, j, q, d, law, mode):
     c, s, back = cos(ahead), sin(ahead), work.T6[0, 0]
     zero(back)
     force = push_both(two, beside, sl, work.wrenches[i], back)
-    for k in range(2):  # force and moment, in the frame of j
-        f = seen(c, -s, xyz(back[3 * k :]))
-        for n in range(3):
-            work.wrenches[j, 3 * k + n] += f[n]
+    back_in_j = seen(c, -s, xyz(back)), seen(c, -s, turn_of(back))
+    add_force_and_moment(work.wrenches[j], back_in_j[0], back_in_j[1])
     if mode == TANGENT:
         _slopes(i, j, two, ahead, d)
     elif mode >= REPORT:
