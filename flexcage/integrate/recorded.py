@@ -6,11 +6,18 @@ from typing import Any
 
 import numpy as np
 
+from flexcage.core.wings import FAMILIES
 from flexcage.integrate.postures import orientation, to_body
 from flexcage.integrate.recording import Recording
 from flexcage.integrate.rings import ring_records
 from flexcage.results.options import OutputOptions
-from flexcage.results.registry import ENERGIES, NEIGHBOURS, VARIABLES, variables_of
+from flexcage.results.registry import (
+    ENERGIES,
+    NEIGHBOURS,
+    VARIABLES,
+    own_variables,
+    variables_of,
+)
 from flexcage.results.store import MemoryRunStore, RunStore
 from flexcage.system.data import POWERS
 from flexcage.system.problem import Bearing
@@ -103,6 +110,8 @@ def recorded_names(bearing: Bearing, recording: Recording[Any]) -> list[str]:
     left_out = set() if recording.touch or not layout.has_cage else {NEIGHBOURS}
     every = [name for name in variables_of(bearing.spec.family) if name not in left_out]
     if not layout.has_cage:
+        own = own_variables(FAMILIES[bearing.spec.family]).counted
+        without |= {*_of_cage(bearing), "station", *own}
         every = [name for name in every if not VARIABLES[name].of_cage]
     return [name for name in every if without.isdisjoint(VARIABLES[name].dims)]
 

@@ -7,10 +7,14 @@ import pytest
 from simulate_cases import Interrupted
 
 from flexcage import Study, load_run, run_study, simulate
+from flexcage.bearings import recording_of
 from flexcage.case import load_case
 from flexcage.core.errors import InputError
+from flexcage.integrate.recorded import recorded_names
 from flexcage.results.features import cage_motion_features
 from flexcage.results.instrument import of_run
+from flexcage.results.registry import VARIABLES, Variable
+from flexcage.stages import bearing_to_compile
 from flexcage.study import work
 from flexcage.study.axes import Grid
 from flexcage.study.compare import compare
@@ -114,6 +118,15 @@ def test_a_study_refuses_what_none_of_its_cases_has(tmp_path, model, output, why
     asked = study(case, "load.radial", ("300 N", "400 N"), output)
     with pytest.raises(InputError, match=why):
         run_study(asked, out=tmp_path / "study", workers=1)
+
+
+def test_variables_of_ones_own_on_pockets_are_left_out(monkeypatch):
+    mine = Variable("mine", ("time", "pocket"), "N", "a force in every pocket")
+    monkeypatch.setitem(VARIABLES._added, "mine", mine)
+    for model, has in (("rigid", True), ("none", False)):
+        case = load_case({**BALLS, "bearing": {"preset": "7010C-PI"}, "cage": {"model": model}})
+        bearing = bearing_to_compile(case)
+        assert ("mine" in recorded_names(bearing, recording_of(case.bearing))) == has
 
 
 def test_workers_compile_its_kernels_by_a_run_of_two_samples(monkeypatch):
