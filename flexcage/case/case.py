@@ -19,7 +19,7 @@ from flexcage.case.presets import NAMED
 from flexcage.case.read import read_case
 from flexcage.case.read_values import assumptions, files_of
 from flexcage.case.sections import CAGE_MODELS as CAGE_MODELS
-from flexcage.case.sections import NO_CAGE, CaseSections
+from flexcage.case.sections import NO_CAGE, OF_CAGE, CaseSections
 from flexcage.case.static import StaticCase
 from flexcage.case.tables import (
     ALIASES,
@@ -44,7 +44,6 @@ from flexcage.geometry.cage import Cage
 from flexcage.system.statics.options import StaticOptions
 
 _FEW = 8  # values of a list that a notebook shows
-_OF_CAGE = ("cage", "defects", "mesh", "modes")  # sections that go with a cage
 _NOT_PHYSICS = ("name", "description", "preset", "static", "given")
 #: Sections in the order of texts and pages; others follow.
 _ORDER = (
@@ -103,7 +102,7 @@ class Case(CaseSections, StaticCase):
     def _agreed(self, values: dict[str, Any]) -> dict[str, Any]:
         if values["cage_model"] != NO_CAGE or values["cage"] is None:
             return values
-        given = [path for path in values["given"] or () if path.partition(".")[0] not in _OF_CAGE]
+        given = [path for path in values["given"] or () if path.partition(".")[0] not in OF_CAGE]
         return {**values, "cage": None, "given": None if values["given"] is None else (*given,)}
 
     def to_table(self) -> dict[str, Any]:
@@ -130,7 +129,7 @@ class Case(CaseSections, StaticCase):
         if self.cage is not None:
             physics |= self._cage_physics(self.cage)
         else:
-            physics = {k: v for k, v in physics.items() if k not in _OF_CAGE}
+            physics = {k: v for k, v in physics.items() if k not in OF_CAGE}
         contents = {path: bytes_of(value) for path, value in self.files.items()}
         for path in filter(contents.get, contents):
             room, _, name = path.partition(".")

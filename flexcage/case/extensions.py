@@ -53,18 +53,18 @@ def load_extension(source: str | Path) -> None:
         if not path.is_file():
             what = no_file("file", Path(source), (path.suffix,))
             raise InputError(f"{what}; --use loads one.", where="use", value=text)
-    if text in _loaded:
-        return
-    code = [path] if is_file and text.endswith(".py") else [] if is_file else _code_of(text)
-    users_files.remember(code)
-    try:
-        if is_file and not text.endswith((".py", ".toml")):
+        if not text.endswith((".py", ".toml")):
             raise InputError(
                 f"'{source}' is no file that can be loaded: .py (your own laws ...) or .toml (a "
                 "preset).",
                 where="use",
                 value=text,
             )
+    if text in _loaded:
+        return
+    code = [path] if is_file and text.endswith(".py") else [] if is_file else _code_of(text)
+    users_files.remember(code)
+    try:
         if text.endswith(".toml"):
             register_preset(path)
         elif is_file:

@@ -15,6 +15,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+from flexcage.case.sections import CaseSections
 from flexcage.core.binding import (
     Binder,
     expect,
@@ -167,8 +168,6 @@ def register_preset(path: str | Path) -> Preset:
 
 def _check_keys(data: dict[str, Any]) -> None:
     """InputError for a table that no preset has, and for what [preset] does not say."""
-    from flexcage.case.sections import CaseSections  # late: cases need presets
-
     sections = [field.name for field in dataclasses.fields(CaseSections)]
     known = {"": [*_META, *sections], "preset": _ABOUT}
     for where, table in (("", data), ("preset", data.get("preset", {}))):

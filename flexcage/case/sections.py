@@ -27,6 +27,7 @@ from flexcage.system.statics.options import StaticOptions
 
 NO_CAGE = "none"  # full complement
 CAGE_MODELS = ("flexible", "rigid", NO_CAGE)
+OF_CAGE = ("cage", "defects", "mesh", "modes")  # sections that go with a cage
 
 
 @dataclass(frozen=True, kw_only=True)

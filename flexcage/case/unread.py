@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from flexcage.case.sections import CaseSections, StaticSections
+from flexcage.case.sections import OF_CAGE, CaseSections, StaticSections
 from flexcage.core.unread import unread, why_unread
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
@@ -63,8 +63,8 @@ def _in_contacts(case: StaticSections) -> Iterator[tuple[str, str]]:
 
 def _of_no_cage() -> Iterator[tuple[str, str]]:
     for path in (
-        "cage", "defects", "mesh", "modes", "start.push", "start.seed", "limits.stress",
-        "output.keep_cage", "contacts.pocket", "contacts.side", "contacts.land",
+        *OF_CAGE, "start.push", "start.seed", "limits.stress", "output.keep_cage",
+        "contacts.pocket", "contacts.side", "contacts.land",
     ):  # fmt: skip
         yield path, "cage.model is 'none'"
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.core.errors import InputError
-from flexcage.core.probing import place_beyond, read_beyond, with_room, wrong_slopes
+from flexcage.core.probing import check_reading, with_room, wrong_slopes
 
 # penetrations [m] and their rates [m/s], sliding speeds [m/s] at which laws are tried
 _DEPTHS = np.geomspace(1e-9, 3e-5, 40)
@@ -67,7 +67,7 @@ def check_normal(law: Callable[..., None], name: str, given: tuple[float, ...]) 
 
     d, v = (x.ravel() for x in np.meshgrid(_DEPTHS, _RATES))
     every = np.concatenate([d, _APART]), np.concatenate([v, np.full(len(_APART), 0.1)])
-    _check_reading(what, lambda q: at(q, *every), np.array(given))
+    check_reading(what, lambda q: at(q, *every), np.array(given), where=what)
     found = at(p, *every)
     _check_numbers(what, "F, Fe, Fd and Fv", found, (every[0], "a penetration", "m"))
     if found[:, len(d) :].any():
@@ -110,7 +110,7 @@ def check_friction(law: Callable[..., None], name: str, given: tuple[float, ...]
     what, p = f"Friction law '{name}'", with_room(np.array(given))
     trial = _Trial(law, what, ("u",), ("g", "dg"))
     every = np.concatenate([[0.0, 1e-9], _SLIDING])
-    _check_reading(what, lambda q: trial(q, every), np.array(given))
+    check_reading(what, lambda q: trial(q, every), np.array(given), where=what)
     both = trial(p, every)
     _check_numbers(what, "g = mu/u and dg", both, (every, "a sliding speed", "m/s"))
     slope = both[1, -len(_SLIDING) :]
@@ -125,16 +125,6 @@ def check_friction(law: Callable[..., None], name: str, given: tuple[float, ...]
         raise trial.refused(
             f"pushes along the motion: g = mu/u is {both[0, k]:.4g} s/m at a sliding speed of "
             f"{every[k]:.3g} m/s, but must not be negative"
-        )
-
-
-def _check_reading(what: str, evaluate: Any, p: np.ndarray) -> None:
-    place = place_beyond(evaluate, p)
-    if place is not None:
-        raise InputError(
-            f"{what} {read_beyond(place, len(p))}.",
-            where=what,
-            value=place,
         )
 
 

@@ -48,7 +48,7 @@ def check_writable(folder: Path) -> None:
         file.write(b"0" * _ROOM)
 
 
-_told: set[Path] = set()
+_told: set[Path | str] = set()  # folders and variables of which something was said
 
 
 def tell_unwritable(path: Path, error: OSError) -> None:
@@ -86,8 +86,8 @@ def cache_limit() -> int:
         size = -1.0
     if not 0.0 <= size < _MOST_GB:
         size = _DEFAULT_LIMIT_GB
-        if (place := Path(_LIMIT)) not in _told:
-            _told.add(place)
+        if _LIMIT not in _told:
+            _told.add(_LIMIT)
             logger.warning(
                 "%s is '%s', but should be a number of GB that is not negative, as 10; %g GB are "
                 "taken", _LIMIT, text, size,

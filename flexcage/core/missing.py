@@ -9,7 +9,6 @@ from flexcage.core.binding import near_names
 
 _LFS = b"version https://git-lfs"
 
-
 #: Of a file that a clone of a repository has not fetched.
 POINTER = "it is a pointer of Git LFS; 'git lfs pull' in its folder brings the file"
 

@@ -4,9 +4,11 @@ those of its values?
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 import numpy as np
+
+from flexcage.core.errors import InputError
 
 _ROOM = 1024  # parameters of a trial, most of them not given
 _ODD = (np.nan, 1e3, -1e3)  # values that no function overlooks all
@@ -15,12 +17,28 @@ _OFF = 0.01  # share by which a slope may be off
 _FLOOR = 1e-3  # of value over argument: a slope that counts
 _ROUNDING = 1e-13  # of a value
 
-Evaluate = Callable[[np.ndarray], tuple[np.ndarray, ...]]
+Evaluate = Callable[[np.ndarray], Iterable[np.ndarray]]
 
 
 def with_room(given: np.ndarray) -> np.ndarray:
     """The parameters given, with zeros after them: what reads further stays in the array."""
     return np.concatenate([given, np.zeros(_ROOM - len(given))])
+
+
+def check_reading(what: str, evaluate: Evaluate, given: np.ndarray, *, where: str) -> None:
+    """InputError, with ``what`` as the name of a function, if the values of ``evaluate(p)`` depend
+    on parameters beyond those ``given``."""
+    place = place_beyond(evaluate, given)
+    if place is None:
+        return
+    count = len(given)
+    few = {0: "none", 1: "one number, p[0]"}.get(count, f"{count} numbers, p[0] to p[{count - 1}]")
+    raise InputError(
+        f"{what} reads p[{place}], but its parameters are {few}; let its 'parameters' give all "
+        "that it reads.",
+        where=where,
+        value=place,
+    )
 
 
 def place_beyond(evaluate: Evaluate, given: np.ndarray) -> int | None:
@@ -38,15 +56,6 @@ def place_beyond(evaluate: Evaluate, given: np.ndarray) -> int | None:
         if _differs(evaluate, given, wanted, slice(place, place + 1)):
             return place if place < _ROOM // 2 else place - _ROOM
     return count
-
-
-def read_beyond(place: int, count: int) -> str:
-    """What ``place_beyond`` has found, in words that follow the name of a function."""
-    few = {0: "none", 1: "one number, p[0]"}.get(count, f"{count} numbers, p[0] to p[{count - 1}]")
-    return (
-        f"reads p[{place}], but its parameters are {few}; let its 'parameters' give all that it "
-        "reads"
-    )
 
 
 def _differs(evaluate: Evaluate, given: np.ndarray, wanted: np.ndarray, where: slice) -> bool:

@@ -107,12 +107,13 @@ def recorded_names(bearing: Bearing, recording: Recording[Any]) -> list[str]:
         ("spotted", spots),
     )  # fmt: skip
     without = {dim for dim, has in counted if not has}
-    left_out = set() if recording.touch or not layout.has_cage else {NEIGHBOURS}
-    every = [name for name in variables_of(bearing.spec.family) if name not in left_out]
+    every = variables_of(bearing.spec.family)
     if not layout.has_cage:
         own = own_variables(FAMILIES[bearing.spec.family]).counted
         without |= {*_of_cage(bearing), "station", *own}
         every = [name for name in every if not VARIABLES[name].of_cage]
+    elif not recording.touch:
+        every = [name for name in every if name != NEIGHBOURS]
     return [name for name in every if without.isdisjoint(VARIABLES[name].dims)]
 
 

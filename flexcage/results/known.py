@@ -19,6 +19,7 @@ from flexcage.system.data import POWERS
 
 FLEXIBLE, RIVETED, FATIGUE, WEAR = "flexible cage", "riveted cage", "fatigue", "wear"
 CAGED, FULL = "a cage", "full complement"
+_NEEDS = frozenset({FLEXIBLE, RIVETED, FATIGUE, WEAR, CAGED, FULL})
 
 #: What a figure is: may it be below zero, is it a mean or a peak over windows of the run (and so
 #: has an interval), is it a text instead of a number, does only a run read or drawn later have it.
@@ -69,9 +70,12 @@ class KnownFigure:
 
 
 def figures_in(section: str, *rows: tuple, needs: str = "") -> Iterator[KnownFigure]:
-    """Figures from rows of key, title, unit, meaning, and marks."""
+    """Figures from rows of key, title, unit, meaning, and marks, among them what a row needs other
+    than all."""
     for key, pattern, shown, meaning, *marks in rows:
-        yield KnownFigure(key, pattern, shown, meaning, section, needs, frozenset(marks))
+        own = next((mark for mark in marks if mark in _NEEDS), needs)
+        kept = frozenset(marks) - _NEEDS
+        yield KnownFigure(key, pattern, shown, meaning, section, own, kept)
 
 
 # fmt: off
@@ -88,40 +92,24 @@ def _statistics() -> Iterator[KnownFigure]:
 
 
 def _speeds() -> Iterator[KnownFigure]:
-    yield from figures_in("Speeds", ("inner_speed", "Inner ring speed", "rpm", "mean", SIGNED))
     yield from figures_in(
         "Speeds",
-        ("cage_speed", "Cage speed", "rpm", "mean over whole turns of the cage", SIGNED, STATISTIC,
-         BRIEF, LARGE, SETTLING, CONVERGENCE),
-        needs=CAGED,
-    )
-    yield from figures_in(
-        "Speeds",
+        ("inner_speed", "Inner ring speed", "rpm", "mean", SIGNED),
+        ("cage_speed", "Cage speed", "rpm", "mean over whole turns of the cage", CAGED, SIGNED,
+         STATISTIC, BRIEF, LARGE, SETTLING, CONVERGENCE),
         ("orbital_speed", "{Element}s' orbital speed", "rpm",
-         "mean of all, over whole turns; without a cage", SIGNED, STATISTIC, BRIEF, LARGE, SETTLING,
-         CONVERGENCE),
-        needs=FULL,
-    )
-    yield from figures_in(
-        "Speeds",
+         "mean of all, over whole turns; without a cage", FULL, SIGNED, STATISTIC, BRIEF, LARGE,
+         SETTLING, CONVERGENCE),
         ("epicyclic_speed", "Epicyclic cage speed", "rpm",
          "cage speed of pure rolling, of balls at the run's mean contact angles", SIGNED),
-    )
-    yield from figures_in(
-        "Speeds",
         ("cage_slip_ratio", "Cage slip ratio", "%",
-         "(epicyclic speed - cage speed) / epicyclic speed", SIGNED, STATISTIC, BRIEF, LARGE,
+         "(epicyclic speed - cage speed) / epicyclic speed", CAGED, SIGNED, STATISTIC, BRIEF, LARGE,
          CONVERGENCE),
         ("cage_speed_ripple", "Cage speed ripple", "%",
-         "standard deviation over mean of the cage's speed", STATISTIC, CONVERGENCE),
-        needs=CAGED,
-    )
-    yield from figures_in(
-        "Speeds",
+         "standard deviation over mean of the cage's speed", CAGED, STATISTIC, CONVERGENCE),
         ("orbital_slip_ratio", "{Element}s' orbital slip ratio", "%",
-         "(epicyclic speed - orbital speed) / epicyclic speed; without a cage", SIGNED, STATISTIC,
-         BRIEF, LARGE, CONVERGENCE),
-        needs=FULL,
+         "(epicyclic speed - orbital speed) / epicyclic speed; without a cage", FULL, SIGNED,
+         STATISTIC, BRIEF, LARGE, CONVERGENCE),
     )
 
 
@@ -199,20 +187,16 @@ def _forces() -> Iterator[KnownFigure]:
     yield from figures_in(
         "Contacts of neighbours",
         ("neighbour_force_mean", "Force on the next {element}, mean", "N",
-         "of an element while it touches the next one", STATISTIC, BRIEF, LARGE, SETTLING,
+         "of an element while it touches the next one", FULL, STATISTIC, BRIEF, LARGE, SETTLING,
          CONVERGENCE),
         ("neighbour_force_pass_peak", "Force on the next {element}, peak of a pass", "N",
-         "mean of the largest in each element pass", STATISTIC, BRIEF, CONVERGENCE),
+         "mean of the largest in each element pass", FULL, STATISTIC, BRIEF, CONVERGENCE),
         ("neighbour_force_peak", "Force on the next {element}, largest", "N",
-         "largest of the settled part", BRIEF, LARGE),
+         "largest of the settled part", FULL, BRIEF, LARGE),
         ("neighbour_contact", "{Element}s that touch the next one", "%",
-         "share of elements and time"),
+         "share of elements and time", FULL),
         ("largest_gap", "Largest gap between {element}s, mean", "mm",
-         "between neighbours, along the pitch circle; mean over time", STATISTIC),
-        needs=FULL,
-    )
-    yield from figures_in(
-        "Contacts of neighbours",
+         "between neighbours, along the pitch circle; mean over time", FULL, STATISTIC),
         ("element_touches", "{Element}s touching the next one", "",
          "times in the settled part that an element met the next one; with a cage shown if there "
          "are any"),

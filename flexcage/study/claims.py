@@ -34,12 +34,13 @@ class Part(Protocol):
         ...
 
 
-@dataclass(frozen=True)
 class _OfConditions:
     """A part that compares conditions, each by its label."""
 
+    conditions: tuple[str, ...]
+
     def __post_init__(self) -> None:
-        given = self.conditions  # type: ignore[attr-defined]
+        given = self.conditions
         if isinstance(given, str) or len(set(given)) < len(given):
             raise InputError(
                 f"The conditions are {given!r}, but should be labels that differ, as in "

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.core.errors import InputError
-from flexcage.core.probing import place_beyond, read_beyond, with_room
+from flexcage.core.probing import check_reading, with_room
 from flexcage.system.layout import Places
 
 _STEP = 1e-4  # of a velocity, or of 1 m/s and 1 rad/s, over which a difference is taken
@@ -26,13 +26,7 @@ def check_rows(kind: Any, name: str, given: np.ndarray, at: Places, y: np.ndarra
         kind.rows(0.0, state, at, p, G, g, h)
         return G, g, h
 
-    place = place_beyond(lambda p: rows(p, y), given)
-    if place is not None:
-        raise InputError(
-            f"Constraint '{name}' {read_beyond(place, len(given))}.",
-            where=name,
-            value=place,
-        )
+    check_reading(f"Constraint '{name}'", lambda p: rows(p, y), given, where=name)
     p = with_room(given)
     G, differences = rows(p, y)[0], np.zeros((m, at.border))
     for k in range(at.border):

@@ -57,9 +57,9 @@ def seat_compliance(mount: Mount, *, diameter: float, width: float) -> np.ndarra
 def odd_seat(compliance: np.ndarray, mount: Mount, *, modulus: float, width: float) -> str:
     """A sentence on a seat of ``mount.body`` that is far softer or stiffer across the axis than a
     solid of this modulus [Pa] as wide as the bearing, E B; "" for a usual one."""
-    stiffness = 1.0 / float(compliance[1:3, 1:3].trace() / 2.0)
+    stiffness = 2.0 / float(compliance[1, 1] + compliance[2, 2])
     share = stiffness / (modulus * width)
-    if not mount.body or _SOFTEST <= share <= _STIFFEST:
+    if _SOFTEST <= share <= _STIFFEST:
         return ""
     return (
         f"the seat of mount.body bears {describe(stiffness, 'N/um')} across the axis, {share:.2g} "
