@@ -135,8 +135,19 @@ def _moving_rings(specs: CaseSections, seat: np.ndarray | None) -> MovingRings |
     if not specs.rings_bend:
         return None
     rings = replace(_rings_of(specs), heavier=heaviest_load(specs.load))
-    stands = specs.mount.kind == "fixed" and seat is None
-    return moving_rings(rings, _statics(specs, rings, seat), stands=stands)
+    solution = _statics(specs, rings, seat)
+    return moving_rings(rings, solution, whole=_shake_on_their_seats(specs, seat))
+
+
+def _shake_on_their_seats(specs: CaseSections, seat: np.ndarray | None) -> tuple[bool, bool]:
+    """May inner and outer ring, which bend, move as a whole on their seats? So they do on those
+    that stand, or are as heavy: a light one would follow the ring at once."""
+    load, mount, bearing = specs.load, specs.mount, specs.bearing
+    held = load.centre != "free" and not load.frees_axially(bearing)
+    heavy = load.shaft_mass >= bearing.inner_ring_mass
+    stands = mount.kind == "fixed" and seat is None
+    inner = load.tilt == "held" and (held or heavy)
+    return inner, stands or mount.mass >= bearing.outer_ring_mass
 
 
 def _rings_of(specs: CaseSections) -> Rings:
@@ -176,6 +187,8 @@ def _assembled(
         data = rigid_rings(count) if rings is None else rings.data
         modes = (no_modes(count), no_modes(count)) if rings is None else rings.modes
         motion, model = bending.motion, lands_follow(bending.model(*model, data, *modes))
+        if rings:
+            model = rings.with_inertia(model, specs.bearing)
     if body is None:
         motion = motion.without_cage
     layout = Layout(

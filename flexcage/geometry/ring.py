@@ -41,8 +41,8 @@ class FlexibleRing:
     relaxation: float = quantity(
         "us", 1e-5, doc="time in which a race yields to a load in a run, by 63 %", above=0.0,
         when=_BENDS,
-        assumption="half and twice as long moves no force by 1 %; half of it damps an outer ring "
-        "that swings in proportion to its stiffness, 3 % of the critical at 2 kHz, as joints do",
+        assumption="half and twice as long moves no force by 1 %; half of it damps the modes of a "
+        "ring in proportion to its stiffness, 3 % of the critical at 2 kHz, as joints do",
     )  # fmt: skip
 
     @property
@@ -63,10 +63,6 @@ class FlexibleRing:
 @dataclass(frozen=True, kw_only=True)
 class InnerRing(FlexibleRing):
     """The inner ring on its shaft. Its seat is what the load moves."""
-
-    ring: str = option(
-        "rigid", doc="does the ring bend? In a run it then does so without inertia", choices=RINGS
-    )
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -43,8 +43,8 @@ def _by_modes(
     press = np.zeros((len(y), len(modes.press)))
     for k, state in enumerate(y):
         q, s = layout.q(state), layout.ring_forces(state)
-        a = q[f"{SIDES[side]}_modes"]
-        deflect(side, q["elements"].ravel(), s.ravel(), a, races, modes)
+        ring, a = q[SIDES[side]], q[f"{SIDES[side]}_modes"]
+        deflect(side, q["elements"].ravel(), s.ravel(), ring, a, races, modes)
         x, z = s[side].T
         at_once = np.stack([own[0] * x + own[1] * z, own[1] * x + own[2] * z], axis=1)
         found[k] = races.deflection[side] - at_once

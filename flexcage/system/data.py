@@ -13,6 +13,7 @@ from flexcage.contacts.pocket_wall import N_LOCAL, filled
 from flexcage.contacts.race import RaceWork
 from flexcage.contacts.slices import Slices, new_slices
 from flexcage.contacts.state import KEPT, Pair, RollerPose, new_pair, new_pose
+from flexcage.core.vectors import RIGID
 from flexcage.system.layout import Layout
 
 POWERS = (
@@ -92,6 +93,11 @@ class RingBody(NamedTuple):
     rest: np.ndarray  # (6,) coordinates at which springs rest, or it is held
     loose: int  # 1: it lies in a bore with clearance, which presses on it
     bore: np.ndarray  # (3,) of that: stiffness, damping, clearance
+    # of a ring with M modes of unit mass: inertia that each has in common with the ring's motions,
+    # and the inverse of the mass matrix of all that is free
+    coupling: np.ndarray = np.zeros((RIGID, 0))
+    inverse: np.ndarray = np.zeros((0, 0))
+    spare: np.ndarray = np.zeros(0)
 
 
 class Memory(NamedTuple):

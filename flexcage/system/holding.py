@@ -23,7 +23,7 @@ from flexcage.system.layout import (
     RING,
     Places,
 )
-from flexcage.system.rates import cage_accelerations
+from flexcage.system.rates import by_inverse, cage_accelerations
 from flexcage.system.ring import ring_rates
 
 INSTANT = 1e-6  # [s] over which constraints are differentiated in time
@@ -199,6 +199,14 @@ def _bear(t, y, yd, d, rows):
         pull = c.pull[k]
         for j in range(at.border):
             pull[j] = c.G[k, j] if j >= at.cage_b else c.G[k, j] * c.ease[j]
+        for ring, b, modes in (
+            (fields(d.inner_ring), at.inner_b, at.inner_modes),
+            (fields(d.outer_ring), at.outer_b, at.outer_modes),
+        ):
+            for j in range(RIGID + modes if modes > 0 else 0):
+                pull[b + j] = c.G[k, b + j]
+            if modes > 0:
+                by_inverse(ring, array_from(pull, b))
         if at.cages > 0:
             cage_accelerations(
                 frame.rigid, frame.coupled, fields(d.cage).plain, fields(d.scratch).A,

@@ -131,19 +131,20 @@ def _rates(t, y, yd, data, mode):
         a[U_SKEW] *= transverse
         a[U_TILT] *= transverse
     a, row = array_from(yd, at.inner_u), array_from(out, at.inner_u)
-    _by_inertia(inner, a)
+    _by_inertia(inner, at.inner_modes, a)
     for k in range(3):
         c = HELD_VELOCITIES[k]
         if inner.free[c] == 0:
-            a[c], lam[k] = 0.0, row[c]
+            a[c], lam[k] = 0.0, row[c] + _with_modes(inner, c, a)
     if inner.stands != 0:
         if inner.free[0] != 0:
-            lam[AXIAL_FORCE] += row[0]
+            lam[AXIAL_FORCE] += row[0] + _with_modes(inner, 0, a)
         a[0] = a[1] = a[2] = 0.0
     if inner.free[U_SPIN] == 0:
         a[U_SPIN] = table_slope(bodies.speed, t) + wave_slope(bodies.waves[OF_SPEED], t)
         lam[DRIVE_TORQUE] = row[U_SPIN] + inner.inertia[AXIAL] * a[U_SPIN]
-    _by_inertia(fields(d.outer_ring), array_from(yd, at.outer_u))  # what is held has none
+    # what is held has none
+    _by_inertia(fields(d.outer_ring), at.outer_modes, array_from(yd, at.outer_u))
     if at.cages > 0:
         cage_accelerations(
             frame.rigid, frame.coupled, fields(d.cage).plain, fields(d.scratch).A,
@@ -153,13 +154,38 @@ def _rates(t, y, yd, data, mode):
 
 
 @part
-def _by_inertia(ring, a):
-    """Accelerations of a ring in place of the forces a on it."""
+def _with_modes(ring, c, a):
+    """Force on a ring's velocity c by which its modes are accelerated."""
+    force = 0.0
+    for m in range(ring.coupling.shape[1]):
+        force += ring.coupling[c, m] * a[RIGID + m]
+    return force
+
+
+@part
+def _by_inertia(ring, modes, a):
+    """Accelerations of a ring and its modes in place of the forces a on them."""
+    if modes > 0:
+        by_inverse(ring, a)
+        return
     for k in range(3):
         a[k] /= ring.inertia[MASS]
     a[U_SPIN] /= ring.inertia[AXIAL]
     a[U_SKEW] /= ring.inertia[TRANSVERSE]
     a[U_TILT] /= ring.inertia[TRANSVERSE]
+
+
+@part
+def by_inverse(ring, a):
+    """Accelerations of a ring with modes, in place of the forces a on it and on them."""
+    n, forces = ring.inverse.shape[0], ring.spare
+    for k in range(n):
+        forces[k] = a[k]
+    for k in range(n):
+        total = 0.0
+        for l in range(n):
+            total += ring.inverse[k, l] * forces[l]
+        a[k] = total
 
 
 @part

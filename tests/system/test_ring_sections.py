@@ -9,7 +9,7 @@ import flexcage
 from flexcage.stages import assembled_start, bearing_in_motion, cage_mesh
 from flexcage.static import solve_static
 from flexcage.system.data import IN_CONTACTS, STRAIN
-from flexcage.system.rings.left_out import left_out, left_by_lands, left_by_ribs
+from flexcage.system.rings.left_out import left_by_lands, left_by_ribs, left_out
 from flexcage.system.statics.options import AT_START
 
 ARCS = {
@@ -30,10 +30,19 @@ def housing(tmp_path):
     return housing_file(tmp_path, along=5e7, coupled=1e6)
 
 
-class Bent:
-    """A bearing whose elements are away from the outer race, some on ribs and land."""
+INNER = {
+    "inner_ring.ring": "flexible", "inner_ring.seat": "foundation", "inner_ring.foundation": 3e10,
+    "load.shaft_mass": 1.0,
+}  # fmt: skip
+LAND_INSIDE = {"cage.guidance": "inner", "contacts.land.kind": "dry"}
 
-    def __init__(self, case, *, lands=False, aside=0.0):
+
+class Bent:
+    """A bearing whose elements are away from the race of the ``side`` that bends, some on ribs and
+    land."""
+
+    def __init__(self, case, *, side="outer", lands=False, aside=0.0):
+        self.side = f"{side}_modes"
         self.bearing = bearing_in_motion(case, cage_mesh(case), None)
         self.layout, start = self.bearing.layout, assembled_start(case, self.bearing)
         self.y, self.yd, rng = start.y.copy(), 0.0 * start.yd, np.random.default_rng(2)
@@ -41,20 +50,20 @@ class Bent:
         for name in ("inner", "cage", "omega"):
             self.layout.u(self.y)[name][:] = 0.0
         elements = self.layout.q(self.y)["elements"]
-        elements[:, 1] -= 1e-4
+        elements[:, 1] += {"outer": -1e-4, "inner": 3e-4}[side]
         elements[:, 0] += aside * rng.choice([-1.0, 1.0], len(elements))
         elements[:, 3:5] += 1e-4 * rng.standard_normal((len(elements), 2))
         self.layout.ring_forces(self.y)[:] = 0.0
         if lands:
             reach = self.bearing.data.model.land.clearance + 8e-6
             self.layout.q(self.y)["cage"][1:] = reach * np.array([0.8, 0.6])
-        a = self.layout.q(self.y)["outer_modes"]
+        a = self.layout.q(self.y)[self.side]
         a += 2e-8 * rng.standard_normal(len(a))
 
     def forces(self, y=None):
         """Forces on the ring's modes, from their rows."""
         out = self.bearing.residual(0.0, self.y if y is None else y, self.yd)
-        return -self.layout.u(out)["outer_modes"]
+        return -self.layout.u(out)[self.side]
 
     def energy(self, y):
         self.bearing.residual(0.0, y, self.yd, 2)
@@ -69,22 +78,25 @@ class Bent:
         ("N1013", {**RIBS, **SMOOTH}, {"aside": 22e-6}),
         ("N1013", {**RIBS, **LAND, **SMOOTH}, {"lands": True, "aside": 22e-6}),
         ("7010C-PI", {**LAND, **SMOOTH}, {"lands": True}),
+        ("N1013", {**SMOOTH, "load.gravity": 0.0}, {"side": "inner", "aside": 22e-6}),
+        ("7010C-PI", {**LAND_INSIDE, **SMOOTH}, {"side": "inner", "lands": True}),
     ],
 )
 def test_ribs_and_lands_push_along_the_slopes_of_their_energy(preset, more, where):
     """On the ring's coordinates, the cage, and elements along their orbit; third law."""
-    bent = Bent(at_rest(preset, **ARCS, **more), **where)
+    inner = where.get("side") == "inner"
+    bent = Bent(at_rest(preset, **(INNER if inner else ARCS), **more), **where)
     forces, y, layout = bent.forces(), bent.y, bent.layout
     work = bent.bearing.data.work.scratch
     wrenches, pushed = work.wrenches.copy(), layout.border(work.border.copy())
-    assert np.abs(bent.bearing.data.model.outer_modes.borne).max() > 1.0
+    assert np.abs(getattr(bent.bearing.data.model, bent.side).borne).max() > 1.0
     assert np.abs(unbalanced(bent.bearing, layout.q(y)["elements"])).max() < 1e-12
     scale = np.abs(forces).max()
     for m in range(len(forces)):
         ends = []
         for h in (1e-12, -1e-12):
             moved = y.copy()
-            layout.q(moved)["outer_modes"][m] += h
+            layout.q(moved)[bent.side][m] += h
             ends.append(bent.energy(moved))
         assert -(ends[0] - ends[1]) / 2e-12 == pytest.approx(forces[m], abs=2e-4 * scale), m
     if "aside" in where:
@@ -138,7 +150,9 @@ def test_a_warning_names_what_a_land_leaves_out(seat, clearance, told):
     })  # fmt: skip
     bearing = bearing_in_motion(case, cage_mesh(case), None)
     (side, *_), left = bearing.rings.start.rings, left_out(bearing.rings)
-    assert np.array_equal(left[0], side.deflection[:, :2]) and not left[1].any()
+    # modes of two waves and more carry little of it: the ring moves as a whole
+    whole = np.abs(side.deflection[:, :2]).max()
+    assert left[0] == pytest.approx(side.deflection[:, :2], abs=0.1 * whole) and not left[1].any()
     sentences = list(left_by_lands(bearing.rings, bearing.data.model.land))
     assert len(sentences) == told
     if told:

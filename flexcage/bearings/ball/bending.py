@@ -69,7 +69,7 @@ def evaluate(t, y, yd, d, law, out, mode):
     r_q, r_u, s = out[: at.bodies_q], out[at.u :], y[at.loads :]
     modes = set_bodies(y, d, mode)
     law[BESIDE](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
-    deflect_races(q, s, races)
+    deflect_races(q, inner_of(y, d).q, outer_of(y, d).q, s, races)
     displace_by_modes(q, u, y, d)
     Rc, Vc = array_from(y, at.cage_q), array_from(y, at.cage_u)
     for i in range(at.elements):

@@ -50,7 +50,6 @@ from flexcage.system.rings.races import (
     displace,
     force_rows,
     guess,
-    orbit_of,
     push_by_slopes,
     report_races,
     with_ring_weights,
@@ -68,15 +67,15 @@ def evaluate(t, y, yd, d, law, out, mode):
     s = y[at.loads :]
     asked = RESIDUAL if mode == OUTER_RING else mode
     set_bodies(y, d, asked)
-    deflect_races(q, s, races)
+    deflect_races(q, inner_of(y, d).q, outer_of(y, d).q, s, races)
     displace_by_modes(q, u, y, d)
     if mode != OUTER_RING:
         ring, modes = inner_of(y, d), fields(d.inner_modes)
         _on_race(INNER_RACE, y, s, ring, fields(d.inner), modes, d, law, mode)
-        _on_its_ribs(INNER_RACE, q, u, ring, fields(d.rib), modes, d, law, mode)
+        _on_its_ribs(INNER_RACE, q, ring, fields(d.rib), modes, d, law, mode)
     ring, modes = outer_of(y, d), fields(d.outer_modes)
     _on_race(OUTER_RACE, y, s, ring, fields(d.outer), modes, d, law, asked)
-    _on_its_ribs(OUTER_RACE, q, u, ring, fields(d.outer_rib), modes, d, law, asked)
+    _on_its_ribs(OUTER_RACE, q, ring, fields(d.outer_rib), modes, d, law, asked)
     for i in range(Z):
         take_pose(fields(d.scratch).poses[i], fields(d.pose))
         push_modes_by_element(i, d)
@@ -126,7 +125,7 @@ def _on_race(side, y, s, ring, race, modes, d, law, mode):
 
 
 @outlined
-def _on_its_ribs(side, q, u, ring, ribs, modes, d, law, mode):
+def _on_its_ribs(side, q, ring, ribs, modes, d, law, mode):
     """Rollers on a ring's ribs, if it has any, which follow its modes."""
     if ribs.end <= ribs.first:
         return
@@ -135,7 +134,7 @@ def _on_its_ribs(side, q, u, ring, ribs, modes, d, law, mode):
     for i in range(work.poses.shape[0]):
         take_pose(work.poses[i], pose)
         beside(i, q, ring, d, at)
-        carry_ribs(i, orbit_of(q, u, i), at, modes)
+        carry_ribs(i, at, modes)
         if on_ribs(i, at, ribs, d, law, mode):
             bear_ribs(i, at[CENTRE], fields(d.pair).wrench, modes, moment)
             beside(i, q, ring, d, at)

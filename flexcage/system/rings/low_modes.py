@@ -13,8 +13,11 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from flexcage.contacts.ring_waves import COSINE, SINE
+from flexcage.contacts.state import U_SKEW, U_TILT
+from flexcage.core.vectors import RIGID
 from flexcage.fem.revolved import PSI, R, Revolved, X
 from flexcage.modes.ring import RingReduction, natural_modes, spectrum, strip
+from flexcage.system.data import AXIAL, MASS, TRANSVERSE, RingBody
 from flexcage.system.rings.modes import RingModes, modes_of
 from flexcage.system.rings.races import POINTS
 from flexcage.system.statics.rings import BentRing, SeatedRing
@@ -30,7 +33,9 @@ _RACE, _SEAT = slice(0, 2), 2  # ports of a reduction
 @dataclass(frozen=True, eq=False)
 class Coordinates:
     """Modes of unit mass, each with cosine or sine: wave, shape at the race's ports, at supports'
-    ports, stiffness, how a turning ring couples them, and where they stand at the start."""
+    ports, stiffness, and where they stand at the start. What couples their inertia: with each other
+    where the ring turns, and with the motions of its frame, in the order of its velocities, at rest
+    (``coupling``) and where it turns (``tilting``); ``inertia`` is that of the whole ring."""
 
     harmonic: np.ndarray  # (M,)
     quarter: np.ndarray  # (M,)
@@ -39,6 +44,9 @@ class Coordinates:
     chi: np.ndarray  # (S, M) at supports
     stiffness: np.ndarray  # (M,)
     turning: np.ndarray  # (M, M), antisymmetric
+    coupling: np.ndarray  # (6, M)
+    tilting: np.ndarray  # (6, M)
+    inertia: np.ndarray  # (3,) mass, axial and transverse inertia
     at_start: np.ndarray  # (M,)
 
     def waves(self, azimuth: np.ndarray) -> np.ndarray:
@@ -50,14 +58,18 @@ class Coordinates:
 @dataclass(frozen=True, eq=False)
 class LowModes:
     """Shapes of a ring's modes, each for cosine and sine: harmonic (m,), frequency (m,) [rad/s], of
-    its translation 0, shapes (m, 3) at the ports, of unit modal mass, motions (m, 3) of the section
-    as a whole: axially at the ring's axis, radially in its middle plane, in tilt; and ``turning``
-    (m, m): the momentum of one in how another changes round the ring."""
+    its translation 0, shapes (m, 3) at the ports, of unit modal mass, and motions (m, 3) of the
+    section as a whole: axially at the ring's axis, radially in its middle plane, in tilt. Products
+    of inertia: ``turning`` (m, m) of one with how another changes round the ring, ``moved`` (m, 2)
+    with the translation of the same harmonic and with a tilt, ``tilting`` (m,) with how a tilt
+    changes round the ring."""
 
     harmonic: np.ndarray
     frequency: np.ndarray
     shape: np.ndarray
     section: np.ndarray
+    moved: np.ndarray
+    tilting: np.ndarray
     turning: np.ndarray
 
     def compliance(self, harmonics: int) -> np.ndarray:
@@ -71,42 +83,55 @@ class LowModes:
 
 def low_modes(ring: RingReduction, below: float = CARRIED, *, least: int = 0) -> LowModes:
     """Modes below a frequency [rad/s] that yield to what presses on the ring, of harmonics from the
-    ``least`` on. Those from 2 on have no inertia in common with the motions of a seat."""
+    ``least`` on."""
     found, turning = [], []
-    if ring.held.free:
-        across = ring.model.rigid_motions(1)[:, 0]
-        mass = float(across @ (ring.model.mass(1) @ across))
-        found = [(1, 0.0, ring.rigid / np.sqrt(mass), np.array([0.0, 1.0, 0.0]) / np.sqrt(mass))]
-        turning = [np.zeros((1, 1))]  # it is the same all round
-    whole = _section_motions(ring.model)
     for n in ring.harmonics[least:]:
         frequency, shapes = _below(ring, int(n), below)
         at_ports = ring.ports.T @ shapes
         share = (at_ports / frequency) ** 2 / np.diag(ring.compliance[n])[:, None]
         counts = share.max(axis=0) > _FAINT
-        own = whole @ shapes[:, counts]
-        found += [
-            (int(n), w, s, m) for w, s, m in zip(frequency[counts], at_ports.T[counts], own.T)
-        ]
-        turning.append(_turning(ring.model, int(n), shapes[:, counts]))
+        kept, w = shapes[:, counts], frequency[counts]
+        if ring.held.free and n == 1:
+            kept, w = np.hstack([_translation(ring.model), kept]), np.append(0.0, w)
+        found += _columns(ring, int(n), w, kept)
+        turning.append(kept.T @ (ring.model.mass(n) @ _round_the_ring(int(n), kept)))
         if n > 1 and not len(frequency):
             break
-    if not found:
-        return LowModes(
-            np.zeros(0, int), np.zeros(0), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 0))
-        )
-    harmonic, w, shape, section = (np.array(column) for column in zip(*found))
-    return LowModes(harmonic, w, shape, section, block_diag(*turning))
+    n, w, shape, section, moved, tilting = (
+        np.array([each[k] for each in found]).reshape(-1, *size)
+        for k, size in enumerate(((), (), (3,), (3,), (2,), ()))
+    )
+    return LowModes(n.astype(int), w, shape, section, moved, tilting, block_diag(*turning))
 
 
-def _turning(model: Revolved, n: int, shapes: np.ndarray) -> np.ndarray:
-    """Momentum (k, k) of shapes (3N, k) in how they change round the ring, of harmonic n: the
-    vector u = (U_x cos, U_r cos, U_psi sin) changes by -(n U_x, n U_r + U_psi, n U_psi + U_r), of
-    the same turned by a quarter of a wave, in every radian."""
+def _translation(model: Revolved) -> np.ndarray:
+    """A ring's translation across its axis (3N, 1), of unit modal mass."""
+    across = model.rigid_motions(1)[:, :1]
+    return across / np.sqrt(across.T @ (model.mass(1) @ across))
+
+
+def _columns(ring: RingReduction, n: int, w: np.ndarray, shapes: np.ndarray) -> list[tuple]:
+    """What ``LowModes`` has of each of the shapes (3N, k) of harmonic n."""
+    rigid = ring.model.rigid_motions(n)
+    weighted = ring.model.mass(n) @ shapes
+    moved, tilting = np.zeros((shapes.shape[1], 2)), np.zeros(shapes.shape[1])
+    if n == 0:
+        moved[:, 0] = rigid[:, 0] @ weighted
+    elif n == 1:
+        moved = (rigid.T @ weighted).T
+        tilting = _round_the_ring(1, rigid[:, 1:])[:, 0] @ weighted
+    at_ports, own = ring.ports.T @ shapes, _section_motions(ring.model) @ shapes
+    return [(n, *each) for each in zip(w, at_ports.T, own.T, moved, tilting)]
+
+
+def _round_the_ring(n: int, shapes: np.ndarray) -> np.ndarray:
+    """How shapes (3N, k) of harmonic n change round the ring: the vector (U_x cos n psi, U_r cos n
+    psi, U_psi sin n psi) in every radian by -(n U_x, n U_r + U_psi, n U_psi + U_r) of the same
+    turned by a quarter of a wave."""
     x, r, psi = (shapes[way::3] for way in (X, R, PSI))
     changes = np.empty_like(shapes)
     changes[X::3], changes[R::3], changes[PSI::3] = n * x, n * r + psi, n * psi + r
-    return shapes.T @ (model.mass(n) @ changes)
+    return changes
 
 
 def _section_motions(model: Revolved) -> np.ndarray:
@@ -144,10 +169,12 @@ def ring_coordinates(bent: BentRing, modes: LowModes) -> Coordinates:
     harmonic, quarter = harmonic[there], quarter[there]
     shape, w = np.repeat(modes.shape, 2, axis=0)[there], np.repeat(modes.frequency, 2)[there]
     g = np.sqrt(seated.reduction.weight[harmonic])
+    coupling, tilting = _with_frame(modes)
     made = Coordinates(
         harmonic, quarter, g[:, None] * shape[:, _RACE],
         np.repeat(modes.section, 2, axis=0)[there], np.empty((0, len(w))), w**2,
-        np.kron(modes.turning, [[0.0, 1.0], [-1.0, 0.0]])[np.ix_(there, there)], 0.0 * w,
+        np.kron(modes.turning, [[0.0, 1.0], [-1.0, 0.0]])[np.ix_(there, there)],
+        coupling[:, there], tilting[:, there], _inertia(seated.reduction.model), 0.0 * w,
     )  # fmt: skip
     on_seat = strip(harmonic, seated.width[:, None]) * shape[:, _SEAT]
     made = replace(made, chi=made.waves(seated.support) * on_seat)
@@ -157,8 +184,46 @@ def ring_coordinates(bent: BentRing, modes: LowModes) -> Coordinates:
     at_start = np.where(w > 0.0, push / np.maximum(w, 1.0) ** 2, 0.0)
     if seated.reduction.held.free:
         moved = seated.translation(bent.force, bent.bears)  # along y and z
-        at_start[w == 0.0] = moved * seated.reduction.rigid[_SEAT] / modes.shape[0, _SEAT]
+        own = modes.shape[modes.frequency == 0.0, _SEAT]
+        at_start[w == 0.0] = moved * seated.reduction.rigid[_SEAT] / own
     return replace(made, at_start=at_start)
+
+
+def _with_frame(modes: LowModes) -> tuple[np.ndarray, np.ndarray]:
+    """Products of inertia (6, 2 m) of modes, with cosine and sine, and motions of the ring's frame
+    in the order of its velocities: at rest, and of a ring that turns."""
+    coupling, tilting = np.zeros((2, RIGID, len(modes.harmonic), 2))
+    even, once = modes.harmonic == 0, modes.harmonic == 1
+    across, tilt = modes.moved.T
+    coupling[0, even, COSINE] = across[even]
+    coupling[1, once, COSINE] = coupling[2, once, SINE] = across[once]
+    coupling[U_TILT, once, COSINE], coupling[U_SKEW, once, SINE] = tilt[once], -tilt[once]
+    tilting[U_SKEW, once, COSINE] = tilting[U_TILT, once, SINE] = modes.tilting[once]
+    return coupling.reshape(RIGID, -1), tilting.reshape(RIGID, -1)
+
+
+def _inertia(model: Revolved) -> np.ndarray:
+    """Mass, axial and transverse inertia (3,) of a ring about its centre."""
+    (axial, spin), (_, tilt) = (model.rigid_motions(n).T for n in (0, 1))
+    return np.array([x @ (model.mass(n) @ x) for n, x in ((0, axial), (0, spin), (1, tilt))])
+
+
+def ring_with_modes(ring: RingBody, given: np.ndarray, made: Coordinates) -> RingBody:
+    """A ring with modes. Where these have inertia in common with its frame, that of its finite
+    elements takes the place of the one ``given`` (3,), which is in it."""
+    inertia, count = ring.inertia, made.coupling.shape[1]
+    if made.coupling.any():
+        inertia = inertia - given + made.inertia
+    mass = np.eye(RIGID + count)
+    mass[:RIGID, RIGID:], mass[RIGID:, :RIGID] = made.coupling, made.coupling.T
+    own = np.arange(RIGID)
+    mass[own, own] = inertia[[MASS, MASS, MASS, AXIAL, TRANSVERSE, TRANSVERSE]]
+    free = np.append(ring.free * ((own > 2) | (not ring.stands)), np.ones(count)) > 0
+    inverse = np.zeros_like(mass)
+    inverse[np.ix_(free, free)] = np.linalg.inv(mass[np.ix_(free, free)])
+    return ring._replace(
+        inertia=inertia, coupling=made.coupling, inverse=inverse, spare=np.zeros(len(mass))
+    )
 
 
 def late_of(made: Coordinates, relaxation: float) -> np.ndarray:
@@ -173,7 +238,8 @@ def modes_of_ring(
     if not len(seated.support):
         return modes_of(
             len(seated.azimuth), made.harmonic, made.quarter, made.shape, made.section,
-            made.stiffness, late_of(made, relaxation), made.turning,
+            made.stiffness, late_of(made, relaxation), made.turning, made.coupling,
+            made.tilting,
         )  # fmt: skip
     ring, azimuth = seated.reduction, 2.0 * np.pi * np.arange(POINTS) / POINTS
     n, rest = ring.harmonics, left_over(ring, modes)
@@ -190,7 +256,8 @@ def modes_of_ring(
     ]  # fmt: skip
     return modes_of(
         len(seated.azimuth), made.harmonic, made.quarter, made.shape, made.section, made.stiffness,
-        late_of(made, relaxation), made.turning, azimuth=seated.support,
+        late_of(made, relaxation), made.turning, made.coupling, made.tilting,
+        azimuth=seated.support,
         chi=made.chi, table=np.stack(table), kind=kind,
         between=ring.between_supports(seated.support, seated.width, rest[:, _SEAT, _SEAT]),
         holds=not seated.presses_only,

@@ -3,20 +3,23 @@
 A ring on a soft seat or on supports ovalises at low frequencies, and is far softer then than its
 contacts: without inertia it would follow them within a tenth of a microsecond. So its low modes are
 coordinates a of the ring, beside the six of its frame, which does not spin. A mode is a shape of
-the section times cos n psi or sin n psi, psi the azimuth in space. Race and supports are displaced
-by
+the section times cos n psi or sin n psi, psi the azimuth about the ring's centre in a frame that
+does not spin. Race and supports are displaced by
 
     w_i = sum_m phi_m cos or sin(n_m psi_i) a_m + w'_i      y_k = sum_m chi_km a_m + y'_k
 
 and, with unit masses and the ring's speed W,
 
-    a'' + 2 W P a' + K (a + tau a') = sum_i phi_m F_i - sum_k chi_km p_k
+    a'' + L^T (u' - g) + 2 W (P a' - T^T u) + K (a + tau a') = sum_i phi_m F_i - sum_k chi_km p_k
 
 P couples the cosine of a wave with its sine: the ring's material passes through the wave, n times a
 turn (Coriolis). The centrifugal part of that and the stiffening by the hoop stress of rotation
-cancel in a thin ring, rho (W r)^2 both, and are left out: so waves travel as in Bryan's ring.
-P does no work. w' and y' are of the harmonics left over (``races``), which have no mass: with their
-compliances C between elements, B between elements and supports, D between supports,
+cancel in a thin ring, rho (W r)^2 both, and are left out: so waves travel as in Bryan's ring. L is
+the inertia that modes have in common with the motions u of the frame, which a seat that moves takes
+along, and T the same in P: the frame's rows have L a'' + 2 W T a'. P and T do no work.
+
+w' and y' are of the harmonics left over (``races``), which have no mass: with their compliances C
+between elements, B between elements and supports, D between supports,
 
     w' = C s - B p - H F      y' = B^T s - D p      y <= 0, p >= 0, y p = 0 at every support
 
@@ -41,9 +44,10 @@ from flexcage.contacts.evaluation import TANGENT
 from flexcage.contacts.ring_waves import COSINE, PLACE, SINE, no_waves
 from flexcage.contacts.state import U_SPIN
 from flexcage.core.jit import array_from, fields, kernel, outlined, part, zero
-from flexcage.core.vectors import RIGID
-from flexcage.system.data import INNER_RACE, KINETIC, MODAL_DAMPING, OUTER_RACE, STRAIN
+from flexcage.core.vectors import RIGID, TURN
+from flexcage.system.data import GRAVITY, INNER_RACE, KINETIC, MODAL_DAMPING, OUTER_RACE, STRAIN
 from flexcage.system.layout import PER_ELEMENT, RING
+from flexcage.system.ring import inner_of, outer_of
 from flexcage.system.rings.races import (
     POINTS,
     STEP,
@@ -69,6 +73,8 @@ class RingModes(NamedTuple):
     stiffness: np.ndarray  # (M,) for unit masses
     late: np.ndarray  # (M,) time tau by which its spring damps it
     turning: np.ndarray  # (M, M) P, antisymmetric
+    coupling: np.ndarray  # (6, M) inertia that each has in common with the frame's motions
+    tilting: np.ndarray  # (6, M) the same in P
     azimuth: np.ndarray  # (S,) of supports
     chi: np.ndarray  # (S, M) by which modes displace the ring outwards at supports
     table: np.ndarray  # (K, POINTS, 4) B of an element so far round the ring from a support
@@ -83,7 +89,8 @@ class RingModes(NamedTuple):
     wave: np.ndarray  # (Z, N + 1, 2) cosine and sine of n psi
     moved: np.ndarray  # (Z, 2) displacement of the race by modes, at its ports
     slope: np.ndarray  # (Z, 2) of that over the azimuth
-    rate: np.ndarray  # (Z, 2) of that in time, as an element feels it that orbits
+    orbit: np.ndarray  # (Z,) speeds [rad/s] at which elements orbit about the ring's centre
+    rate: np.ndarray  # (Z, 2) rate of the displacement, as an element feels it that orbits
     total: np.ndarray  # (Z, 2) of all contact forces on the race, friction too, at its ports
     push: np.ndarray  # (M,) forces of supports on modes
     beside: np.ndarray  # (S, Z, 4) of the table
@@ -97,8 +104,10 @@ class RingModes(NamedTuple):
 
 
 class InModes(NamedTuple):
-    """How a ring moves in its modes."""
+    """How a ring moves: its frame, and in that its modes."""
 
+    q: np.ndarray  # (6,)
+    u: np.ndarray  # (6,)
     a: np.ndarray  # (M,)
     v: np.ndarray  # (M,) rates
 
@@ -115,18 +124,19 @@ def displace_by_modes(q, u, y, d):
 @part
 def _inner(y, d):
     at = fields(d.places)
-    return _at(y, at.inner_q + RING, at.inner_u + RIGID, at.inner_modes)
+    return _at(y, at.inner_q, at.inner_u, at.inner_modes)
 
 
 @part
 def _outer(y, d):
     at = fields(d.places)
-    return _at(y, at.outer_q + RING, at.outer_u + RIGID, at.outer_modes)
+    return _at(y, at.outer_q, at.outer_u, at.outer_modes)
 
 
 @part
-def _at(y, a, v, count):
-    return InModes(y[a : a + count], y[v : v + count])
+def _at(y, q, u, count):
+    a, v = q + RING, u + RIGID
+    return InModes(array_from(y, q), array_from(y, u), y[a : a + count], y[v : v + count])
 
 
 @outlined
@@ -134,24 +144,26 @@ def _displace(side, q, u, s, own, races, modes):
     """Displace a race by its modes, and by supports; nothing presses on them yet."""
     if modes.push.shape[0] == 0:
         if modes.carried.shape[0] > 0:  # they stand, but displaced
-            _set_waves(q, modes)
+            _set_waves(races.azimuth[side], modes)
         return
-    _move(side, q, s, own, races, modes)
+    _move(side, s, own, races, modes)
     zero(modes.total)
     zero(modes.load)
     for i in range(modes.rate.shape[0]):
-        orbit = orbit_of(q, u, i)
+        c, s = modes.wave[i, 1, COSINE], modes.wave[i, 1, SINE]
+        radius = q[PER_ELEMENT * i + 1]
+        modes.orbit[i] = orbit_of(q, u, i) - (c * own.u[2] - s * own.u[1]) / radius
         for p in range(2):
-            modes.rate[i, p] += modes.slope[i, p] * orbit
+            modes.rate[i, p] += modes.slope[i, p] * modes.orbit[i]
 
 
 @part
-def _move(side, q, s, own, races, modes):
+def _move(side, s, own, races, modes):
     w, moved, slope, rate = races.deflection[side], modes.moved, modes.slope, modes.rate
     a, v = own.a, own.v
     zero(modes.push)
     zero(modes.press)
-    _set_waves(q, modes)
+    _set_waves(races.azimuth[side], modes)
     _set_crests(a, v, modes)
     set_sections(a, v, modes)
     for i in range(w.shape[0]):
@@ -166,7 +178,7 @@ def _move(side, q, s, own, races, modes):
             moved[i, p], slope[i, p], rate[i, p] = x, turn, moves
             w[i, p] += x
     if modes.press.shape[0] > 0:
-        _press(side, q, s, a, races, modes)
+        _press(side, s, a, races, modes)
 
 
 @part
@@ -181,12 +193,11 @@ def _set_crests(a, v, modes):
 
 
 @part
-def _set_waves(q, modes):
+def _set_waves(azimuth, modes):
     """Cosines and sines of all harmonics at the azimuths of the elements, by recursion."""
     wave = modes.wave
     for i in range(wave.shape[0]):
-        psi = q[PER_ELEMENT * i + 2]
-        c, s = cos(psi), sin(psi)
+        c, s = cos(azimuth[i]), sin(azimuth[i])
         wave[i, 0, COSINE], wave[i, 0, SINE] = 1.0, 0.0
         for n in range(1, wave.shape[1]):
             x, y = wave[i, n - 1, COSINE], wave[i, n - 1, SINE]
@@ -194,7 +205,7 @@ def _set_waves(q, modes):
 
 
 @part
-def _press(side, q, s, a, races, modes):
+def _press(side, s, a, races, modes):
     """What supports do to the race and to its modes."""
     Z, press = races.moment.shape[1], modes.press
     w, moment = races.deflection[side], races.moment[side]
@@ -205,7 +216,7 @@ def _press(side, q, s, a, races, modes):
         modes.swung[k] = swung
         entered = swung
         for i in range(Z):
-            x = (q[PER_ELEMENT * i + 2] - modes.azimuth[k]) * STEP
+            x = (races.azimuth[side, i] - modes.azimuth[k]) * STEP
             whole = np.floor(x)
             c = modes.beside[k, i]
             look_up(modes.table[modes.kind[k]], int(whole) & (POINTS - 1), x - whole, c)
@@ -256,11 +267,14 @@ def mode_rows(y, yd, d, out, mode):
     at, tan = fields(d.places), fields(d.tangent)
     inner = MotionRows(at.inner_q, at.inner_u, at.inner_b, at.inner_modes)
     outer = MotionRows(at.outer_q, at.outer_u, at.outer_b, at.outer_modes)
-    _rows(y, yd, inner, fields(d.inner_modes), out)
-    _rows(y, yd, outer, fields(d.outer_modes), out)
+    gravity = fields(d.bodies).gravity
+    _rows(y, yd, inner, fields(d.inner_modes), gravity, out)
+    _rows(y, yd, outer, fields(d.outer_modes), gravity, out)
+    _on_frame(y, yd, inner, fields(d.inner_ring), fields(d.inner_modes), False, out)
+    _on_frame(y, yd, outer, fields(d.outer_ring), fields(d.outer_modes), True, out)
     if mode == TANGENT:
-        _slopes(y, inner, fields(d.inner_modes), tan)
-        _slopes(y, outer, fields(d.outer_modes), tan)
+        _slopes(y, inner, fields(d.inner_ring), fields(d.inner_modes), False, tan)
+        _slopes(y, outer, fields(d.outer_ring), fields(d.outer_modes), True, tan)
 
 
 class MotionRows(NamedTuple):
@@ -273,8 +287,8 @@ class MotionRows(NamedTuple):
 
 
 @outlined
-def _slopes(y, at, modes, tan):
-    """Slopes of the rows of a ring's modes that follow from its own motion."""
+def _slopes(y, at, ring, modes, by_mount, tan):
+    """Slopes of the rows of a ring and its modes that follow from its own motion."""
     b, speed = at.b + RIGID, y[at.u + U_SPIN]
     for m in range(at.modes):
         tan.Mbb[b + m, b + m] = 1.0
@@ -283,15 +297,34 @@ def _slopes(y, at, modes, tan):
         tan.Cbb[b + m, b + m] += modes.stiffness[m] * modes.late[m]
         for l in range(at.modes):
             tan.Cbb[b + m, b + l] += 2.0 * speed * modes.turning[m, l]
+        for c in range(RIGID):
+            tan.Mbb[b + m, at.b + c] += modes.coupling[c, m]
+            tan.Cbb[b + m, at.b + c] -= 2.0 * speed * modes.tilting[c, m]
+            if not (by_mount and ring.free[c] == 0):
+                tan.Mbb[at.b + c, b + m] += modes.coupling[c, m]
+                tan.Cbb[at.b + c, b + m] += 2.0 * speed * modes.tilting[c, m]
 
 
 @outlined
-def _rows(y, yd, at, modes, out):
+def _on_frame(y, yd, at, ring, modes, by_mount, out):
+    """Add to the rows of a ring's frame the inertia of its modes; rows that are held ``by_mount``
+    are none of momentum."""
+    v, vd, speed = array_from(y, at.u + RIGID), array_from(yd, at.u + RIGID), y[at.u + U_SPIN]
+    for c in range(RIGID):
+        if by_mount and ring.free[c] == 0:
+            continue
+        for m in range(modes.push.shape[0]):
+            out[at.u + c] += modes.coupling[c, m] * vd[m] + 2.0 * speed * modes.tilting[c, m] * v[m]
+
+
+@outlined
+def _rows(y, yd, at, modes, gravity, out):
     """Rows of a ring's modes; they stand if there are places for them, but none."""
     q, u, count, speed = at.q + RING, at.u + RIGID, at.modes, y[at.u + U_SPIN]
     a, v = array_from(y, q), array_from(y, u)
     r_a, r_v = array_from(out, q), array_from(out, u)
     ad, vd = array_from(yd, q), array_from(yd, u)
+    frame, moves = array_from(yd, at.u), array_from(y, at.u)
     if modes.push.shape[0] == 0:
         for m in range(count):
             r_a[m], r_v[m] = ad[m], vd[m]
@@ -305,6 +338,10 @@ def _rows(y, yd, at, modes, out):
         for l in range(count):
             force -= 2.0 * speed * modes.turning[m, l] * v[l]
         force -= modes.stiffness[m] * (a[m] + modes.late[m] * v[m])
+        for c in range(RIGID):
+            weight = gravity[c] if c < TURN else 0.0
+            force -= modes.coupling[c, m] * (frame[c] - weight)
+            force += 2.0 * speed * modes.tilting[c, m] * moves[c]
         r_a[m] = ad[m] - v[m]
         r_v[m] = vd[m] - force
 
@@ -316,6 +353,19 @@ def report_modes(q, u, y, d):
     races, rep, s = fields(d.rings), fields(d.report), y[fields(d.places).loads :]
     _report(INNER_RACE, q, u, s, _inner(y, d), races, fields(d.inner_modes), rep)
     _report(OUTER_RACE, q, u, s, _outer(y, d), races, fields(d.outer_modes), rep)
+    gravity = fields(d.bodies).gravity
+    _report_coupling(inner_of(y, d).u, _inner(y, d).v, fields(d.inner_modes), gravity, rep)
+    _report_coupling(outer_of(y, d).u, _outer(y, d).v, fields(d.outer_modes), gravity, rep)
+
+
+@outlined
+def _report_coupling(u, v, modes, gravity, rep):
+    """Kinetic energy that modes with rates v have with the frame's motions u, and their weight."""
+    for c in range(RIGID):
+        for m in range(modes.push.shape[0]):
+            rep.energy[KINETIC] += u[c] * modes.coupling[c, m] * v[m]
+            if c < TURN:
+                rep.power[GRAVITY] += gravity[c] * modes.coupling[c, m] * v[m]
 
 
 @outlined
@@ -370,12 +420,12 @@ def _lost_at_supports(side, q, u, s, v, races, modes, rep):
 
 
 @kernel
-def deflect(side, q, s, a, races: RacesData, modes: RingModes):
-    """Set ``races.deflection`` of a side, and ``modes.press``, under forces s and modes a, for a
-    record; without H F."""
-    deflect_races(q, s, races)
+def deflect(side, q, s, ring, a, races: RacesData, modes: RingModes):
+    """Set ``races.deflection`` of a side, and ``modes.press``, under forces s and modes a of a
+    ``ring`` with these coordinates (6,), for a record; without H F."""
+    deflect_races(q, ring, ring, s, races)
     if a.shape[0] > 0:
-        _move(side, q, s, InModes(a, a), races, modes)
+        _move(side, s, InModes(ring, ring, a, a), races, modes)
 
 
 def no_modes(elements: int) -> RingModes:
@@ -383,7 +433,7 @@ def no_modes(elements: int) -> RingModes:
     none = np.zeros(0)
     return modes_of(
         elements, np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 2)),
-        np.zeros((0, 3)), none, none, np.zeros((0, 0)),
+        np.zeros((0, 3)), none, none, np.zeros((0, 0)), np.zeros((RIGID, 0)), np.zeros((RIGID, 0)),
     )  # fmt: skip
 
 
@@ -400,7 +450,8 @@ def standing(elements: int, made: RingModes, at: np.ndarray) -> RingModes:
 
 def modes_of(
     elements: int, harmonic: np.ndarray, quarter: np.ndarray, shape: np.ndarray,
-    section: np.ndarray, stiffness: np.ndarray, late: np.ndarray, turning: np.ndarray, *,
+    section: np.ndarray, stiffness: np.ndarray, late: np.ndarray, turning: np.ndarray,
+    coupling: np.ndarray, tilting: np.ndarray, *,
     azimuth: np.ndarray | None = None, chi: np.ndarray | None = None,
     table: np.ndarray | None = None, kind: np.ndarray | None = None,
     between: np.ndarray | None = None, holds: bool = False,
@@ -410,7 +461,8 @@ def modes_of(
     waves, z, st = int(harmonic.max(initial=0)) + 1, np.zeros, np.ascontiguousarray
     carried, borne = no_waves() if count == 0 else (z((waves, 2, 2, 3)), z((waves, 2, 3)))
     return RingModes(
-        harmonic, quarter, st(shape), st(section), st(stiffness), late, st(turning),
+        harmonic, quarter, st(shape), st(section), st(stiffness), late, st(turning), st(coupling),
+        st(tilting),
         z(0) if azimuth is None else azimuth,
         z((held, count)) if chi is None else st(chi),
         z((1, POINTS, 4)) if table is None else st(table),
@@ -418,7 +470,8 @@ def modes_of(
         z((held, held)) if between is None else st(between),
         int(holds), z((waves, 2, 4)), z((waves, 2, 2)), carried, borne, z((3, 3)),
         z((elements, waves, 2)),
-        z((elements, 2)), z((elements, 2)), z((elements, 2)), z((elements, 2)), z(count),
+        z((elements, 2)), z((elements, 2)), z(elements), z((elements, 2)), z((elements, 2)),
+        z(count),
         z((held, elements, 4)), z(held), z(held), z(held), z(held, np.int64), z(held, np.int64),
         z((held, held)), z(held),
     )  # fmt: skip

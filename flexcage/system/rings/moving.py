@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from flexcage.geometry.bearing import Bearing
 from flexcage.modes.ring import natural_frequencies
 from flexcage.system.layout import Layout
 from flexcage.system.rings.low_modes import (
+    Coordinates,
     left_over,
     low_modes,
     modes_of_ring,
     ring_coordinates,
+    ring_with_modes,
 )
 from flexcage.system.rings.modes import RingModes, no_modes
 from flexcage.system.rings.races import C11, C22, POINTS, RacesData, rigid_rings
@@ -22,8 +26,9 @@ from flexcage.system.statics.solution import StaticSolution
 SIDES = ("inner", "outer")
 _FAINT = 1e-4  # share of a deflection that elements far away make and may be left out
 _LOW = 3  # waves around a ring up to which its frequencies are looked at
-_STIFF = 10e3  # [Hz] assumption: rings with lower frequencies have modes
 _OVAL = 2  # waves from which on a ring's motion is no rigid one, and couples with none
+_HELD = ", and such a ring is held in tilt."
+_STIFF = 2.0 * np.pi * 10e3  # [rad/s] assumption: rings with lower frequencies have modes
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,14 +37,21 @@ class MovingRings:
 
     data: RacesData
     modes: tuple[RingModes, RingModes]  # of inner and outer ring
-    at_start: tuple[np.ndarray, np.ndarray]  # (M,) of each: where they are
+    coordinates: tuple[Coordinates | None, Coordinates | None]  # where they have any
     start: StaticSolution
     warnings: tuple[str, ...] = ()  # sentences
 
     @property
+    def at_start(self) -> tuple[np.ndarray, np.ndarray]:
+        """Where the modes (M,) of either ring are."""
+        inner, outer = (np.zeros(0) if c is None else c.at_start for c in self.coordinates)
+        return inner, outer
+
+    @property
     def counts(self) -> tuple[int, int]:
         """So many modes of inner and outer ring."""
-        return len(self.at_start[0]), len(self.at_start[1])
+        inner, outer = self.at_start
+        return len(inner), len(outer)
 
     def begun(self, y: np.ndarray, layout: Layout) -> np.ndarray:
         """A copy of y, with the modes where they are at the start."""
@@ -48,32 +60,41 @@ class MovingRings:
             layout.q(begun)[f"{name}_modes"][:] = at
         return begun
 
+    def with_inertia(self, model: Any, bearing: Bearing) -> Any:
+        """The ``model`` of a bearing, whose rings have the inertia of their finite elements where
+        these have modes."""
+        made = {}
+        for name, modes in zip(SIDES, self.coordinates):
+            if modes is not None:
+                key = f"{name}_ring"
+                rigid = [getattr(bearing, f"{key}_mass"), *getattr(bearing, f"{key}_inertia")]
+                made[key] = ring_with_modes(getattr(model, key), np.array(rigid), modes)
+        return model._replace(**made)
 
-def moving_rings(rings: Rings, solution: StaticSolution, *, stands: bool = True) -> MovingRings:
+
+def moving_rings(
+    rings: Rings, solution: StaticSolution, *, whole: tuple[bool, bool] = (False, True)
+) -> MovingRings:
     """Rings as they are asked for, reduced as in the static ``solution`` of the run's start: its
-    heaviest contact says over what extent, and its contact angles where, races are pressed.
-    ``stands``: does the seat of the outer ring stand? A ring that is soft has modes: on a seat that
-    moves those that are no rigid motion."""
+    heaviest contact says over what extent, and its contact angles where, races are pressed. A ring
+    that is soft on its seat has modes; ``whole``: those in which it moves as a whole as well, as it
+    does on a seat that stands, or is not lighter than itself (of inner, outer ring)?"""
     count = len(solution.elements.azimuth)
-    data, nothing = rigid_rings(count), np.zeros(0)
-    found, at_start = [no_modes(count), no_modes(count)], [nothing, nothing]
-    told: list[str] = []
+    data, modes, told = rigid_rings(count), [no_modes(count), no_modes(count)], []
+    found: list[Coordinates | None] = [None, None]
     for bent in solution.rings:
         side, reduction = SIDES.index(bent.side), bent.seated.reduction
-        spec, least = (rings.inner, rings.outer)[side], 0 if side and stands else _OVAL
-        yields = reduction.compliance
-        if len(bent.bears) or _lowest(bent, least, _LOW)[1] < _STIFF:
+        spec, yields = (rings.inner, rings.outer)[side], reduction.compliance
+        least = 0 if whole[side] else _OVAL
+        if len(bent.bears) or _lowest(bent, range(least, _LOW + 1)) < _STIFF:
             low = low_modes(reduction, least=least)
-            made = ring_coordinates(bent, low)
-            found[side] = modes_of_ring(bent.seated, low, made, spec.relaxation)
-            yields, at_start[side] = left_over(reduction, low), made.at_start
-        n, lowest = _lowest(bent, 0, least - 1) if least else (0, _STIFF)
-        if lowest < _STIFF:
-            told.append(_too_soft(bent.side, n, lowest))
+            made = found[side] = ring_coordinates(bent, low)
+            modes[side] = modes_of_ring(bent.seated, low, made, spec.relaxation)
+            yields = left_over(reduction, low)
+        if not whole[side] and (lowest := _lowest(bent, range(_OVAL))) < _STIFF:
+            told.append(_moves_with_seat(bent.side, lowest))
         _put(data, bent, yields, spec.relaxation)
-    return MovingRings(
-        data, (found[0], found[1]), (at_start[0], at_start[1]), solution, tuple(told)
-    )
+    return MovingRings(data, (modes[0], modes[1]), (found[0], found[1]), solution, tuple(told))
 
 
 def _put(data: RacesData, bent: BentRing, yields: np.ndarray, relaxation: float) -> None:
@@ -103,22 +124,19 @@ def _reach(table: np.ndarray, own: np.ndarray, elements: int) -> int:
     return int(np.count_nonzero(beyond > _FAINT))
 
 
-def _lowest(ring: BentRing, least: int, most: int) -> tuple[int, float]:
-    """Waves around a ring on its seat, of ``least`` to ``most``, and frequency [Hz], of its lowest
-    mode."""
+def _lowest(ring: BentRing, waves: range) -> float:
+    """Frequency [rad/s] of the lowest mode of a ring on its seat with so many waves around it."""
     reduction = ring.seated.reduction
-    waves = range(least, most + 1)
-    found = [natural_frequencies(reduction.model, reduction.held, n, 1)[0] for n in waves]
-    lowest = int(np.argmin(found))
-    return waves[lowest], float(found[lowest]) / (2.0 * np.pi)
+    return min(natural_frequencies(reduction.model, reduction.held, n, 1)[0] for n in waves)
 
 
-def _too_soft(side: str, n: int, lowest: float) -> str:
-    """Of a ring that would need its inertia in motions that couple with those of its seat."""
+def _moves_with_seat(side: str, lowest: float) -> str:
+    """Of a ring that is soft on a light seat."""
+    key = "load.shaft_mass" if side == "inner" else "mount.mass"
     return (
-        f"the {side} ring vibrates on its seat as a whole at {lowest / 1e3:.2g} kHz ({n} waves "
-        "around it), but in a run the seat moves, and the ring's mass moves with it: vibrations "
-        "above a third of that are not right."
+        f"the {side} ring vibrates on its seat as a whole at {lowest / (2e3 * np.pi):.2g} kHz, but "
+        "in this run its mass moves with the seat, as nothing else there is known to be as heavy "
+        f"as the ring; {key} gives what moves with it{_HELD if side == 'inner' else '.'}"
     )
 
 

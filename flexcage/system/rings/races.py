@@ -12,7 +12,7 @@ stiffness (Kelvin and Voigt), but seen by elements as they orbit, so that loads 
 meet no lag. C is positive definite, so this takes energy. The second part is negative and follows
 at once; else it would feed vibrations (``at_once``, Newton's method: one step where the force is
 nearly the one that the ring bears, more where an element strikes). The axisymmetric ring may turn:
-psi is measured in space.
+psi is measured about its centre in a frame that does not spin.
 
 With the energy s C s/2 - F H F/2 an element feels the slope of the race that others bend,
 s_i sum_j C'(psi_i - psi_j) s_j about the axis; over all elements these moments are none. Contact
@@ -23,7 +23,7 @@ damping takes the rate at which an element nears the seat, without w'. What is l
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import pi
+from math import atan2, cos, pi, sin
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -58,6 +58,7 @@ class RacesData(NamedTuple):
     given: np.ndarray  # (2, Z, 2) a deflection that is known beforehand, for the search of a start
     reach: np.ndarray  # (2, 2) [m] by which a port's deflection is a displacement
     rate: np.ndarray  # (2,) 1/tau
+    azimuth: np.ndarray  # (2, Z) of elements, seen from the centre of either ring
     deflection: np.ndarray  # (2, Z, 2) of races at elements, the first part
     moment: np.ndarray  # (2, Z) of slopes, about the axis
     force: np.ndarray  # (2, Z, 2) elastic contact forces on the races
@@ -72,7 +73,8 @@ def rigid_rings(elements: int) -> RacesData:
     return RacesData(
         z(2, np.int64), np.array([RADIAL_PORT, TILT_PORT]), z((2, POINTS, 6)), z(2, np.int64),
         z((2, 3)), z((2, 3)), z((2, elements, 2)), np.ones((2, 2)), np.ones(2),
-        z((2, elements, 2)), z((2, elements)), z((2, elements, 2)), z(2, np.int64),
+        z((2, elements)), z((2, elements, 2)), z((2, elements)), z((2, elements, 2)),
+        z(2, np.int64),
         z((2, pairs, 2), np.int64), z((2, pairs, 6)),
     )  # fmt: skip
 
@@ -84,10 +86,15 @@ def force_at(side, i, Z):
 
 
 @part
-def deflect_races(q, s, rings):
-    """Deflections of the races under the forces s, at the azimuths of the elements (coordinates q),
-    and the moments of slopes; contact forces are none yet."""
+def deflect_races(q, inner, outer, s, rings):
+    """Deflections of the races under the forces s, at the azimuths of the elements (coordinates q)
+    about the centres of both rings (coordinates ``inner``, ``outer``), and the moments of slopes;
+    contact forces are none yet."""
     Z = rings.moment.shape[1]
+    for i in range(Z):
+        radius, psi = q[PER_ELEMENT * i + 1], q[PER_ELEMENT * i + 2]
+        rings.azimuth[INNER_RACE, i] = psi + _seen_from(inner, radius, psi)
+        rings.azimuth[OUTER_RACE, i] = psi + _seen_from(outer, radius, psi)
     zero(rings.force)
     for side in range(2):
         w, moment = rings.deflection[side], rings.moment[side]
@@ -99,18 +106,25 @@ def deflect_races(q, s, rings):
             w[i, 0] = own[C11] * s[k] + own[C12] * s[k + 1] + given[i, 0]
             w[i, 1] = own[C12] * s[k] + own[C22] * s[k + 1] + given[i, 1]
         if rings.bends[side] != 0:
-            _bend_between(q, s, rings, side)
+            _bend_between(s, rings, side)
 
 
 @part
-def _bend_between(q, s, rings, side):
+def _seen_from(ring, radius, psi):
+    """By how much the azimuth of an element is larger, seen from a ring's centre."""
+    c, s = cos(psi), sin(psi)
+    return atan2(ring[1] * s - ring[2] * c, radius - ring[1] * c - ring[2] * s)
+
+
+@part
+def _bend_between(s, rings, side):
     """What elements do to the race beneath others that are near."""
     Z, near, at = rings.moment.shape[1], rings.near[side], 0
     w, moment = rings.deflection[side], rings.moment[side]
     for i in range(Z):
-        a, psi = force_at(side, i, Z), q[PER_ELEMENT * i + 2]
+        a, psi = force_at(side, i, Z), rings.azimuth[side, i]
         for j in range(i):
-            x = (psi - q[PER_ELEMENT * j + 2]) * STEP
+            x = (psi - rings.azimuth[side, j]) * STEP
             whole = np.floor(x)
             k = int(whole) & (POINTS - 1)
             if near < k < POINTS - 1 - near:

@@ -30,9 +30,8 @@ def set_sections(a, v, modes):
 
 
 @outlined
-def carry_ribs(i, orbit, at, modes):
-    """Move a ring ``at`` beside roller i, which orbits at a speed, as its section is moved there by
-    its modes."""
+def carry_ribs(i, at, modes):
+    """Move a ring ``at`` beside roller i as its section is moved there by its modes."""
     carried, wall = modes.carried, modes.wall
     if carried.shape[0] == 0:
         return
@@ -44,7 +43,11 @@ def carry_ribs(i, orbit, at, modes):
             moved += cos_n * even[PLACE, c] + sin_n * odd[PLACE, c]
             slope += n * (cos_n * odd[PLACE, c] - sin_n * even[PLACE, c])
             moves += cos_n * even[RATE, c] + sin_n * odd[RATE, c]
-        wall[MOVED, c], wall[SLOPE, c], wall[MOVES, c] = moved, slope, moves + slope * orbit
+        wall[MOVED, c], wall[SLOPE, c], wall[MOVES, c] = (
+            moved,
+            slope,
+            moves + slope * modes.orbit[i],
+        )
     at[CENTRE, 0] -= wall[MOVED, AXIALLY]
     at[CENTRE, 1] -= wall[MOVED, RADIALLY]
     at[AXIS, 1] += wall[MOVED, IN_TILT]
