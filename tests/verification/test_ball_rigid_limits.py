@@ -13,7 +13,7 @@ from flexcage.simulate import simulate
 from flexcage.stages import cage_mesh, cage_reduction
 from flexcage.system.layout import Layout, bodies_of_bearing
 from flexcage.system.problem import Bearing
-from flexcage.verification.c7010 import c7010
+from flexcage.verification.runs import c7010
 
 THROWN = {  # against balls of different load; trajectories part soon after
     "load.radial": "40 N",
