@@ -11,6 +11,7 @@ from pathlib import Path
 
 from flexcage.case import Case, load_case, load_extension
 from flexcage.case.extensions import sources
+from flexcage.case.sections import MotionSections
 from flexcage.core import jit, kernel_marks
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.reduction import CageReduction
@@ -38,10 +39,10 @@ class Compiling:
     helper: subprocess.Popen | None
 
 
-def kernels_of(case: Case) -> str:
-    """Name of the kernels that a case's run needs: its family's, or those with rings that bend, or
-    without a cage."""
-    parts = (case.bearing.family, "rings" * case.rings_bend, "uncaged" * (case.cage is None))
+def kernels_of(specs: MotionSections) -> str:
+    """Name of the kernels that a run needs: its family's, or those with rings that bend, or without
+    a cage."""
+    parts = (specs.bearing.family, "rings" * specs.rings_bend, "uncaged" * (specs.cage is None))
     return "-".join(filter(None, parts))
 
 
@@ -95,7 +96,10 @@ def build_bearing(
     cage: CageReduction | None,
     compiling: Compiling | None = None,
 ) -> Bearing:
-    """Bodies, contacts and compiled equations of motion."""
+    """Bodies, contacts and compiled equations of motion.
+
+    The whole case, because its text tells the process that helps what to compile.
+    """
     bearing = bearing_in_motion(case, mesh, cage)
     compiling = compiling or begin_compiling(case)
     if compiling is not None:
