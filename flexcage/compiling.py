@@ -55,9 +55,7 @@ def begin_compiling(case: Case) -> Compiling | None:
     if kernel_marks.kernels_cached(kernels_of(case)):
         return None
     log.info("compiling the kernels for the first time: 20 to 30 seconds, once")
-    pieces, end = os.pipe()
-    os.write(end, bytes(range(MOST_PIECES)))
-    os.close(end)
+    pieces = _numbers()
     command = f"{SAME_PACKAGE}; from flexcage.core.orphan import end_with; "
     command += f"end_with({os.getpid()}); from flexcage.compiling import compile_pieces; "
     command += "compile_pieces(*sys.argv[1:])"
@@ -70,6 +68,14 @@ def begin_compiling(case: Case) -> Compiling | None:
     except OSError:
         helper = None  # then, or if the case is too long for a command, this one does it alone
     return Compiling(pieces, helper)
+
+
+def _numbers() -> int:
+    """A pipe's end from which the number of every piece can be read, once."""
+    pieces, end = os.pipe()
+    os.write(end, bytes(range(MOST_PIECES)))
+    os.close(end)
+    return pieces
 
 
 def compile_pieces(text: str, *use: str) -> None:
@@ -91,17 +97,19 @@ def _compile_from(pieces: int, bearing: Bearing) -> None:
 
 
 def build_bearing(
-    case: Case,
+    specs: MotionSections,
     mesh: CageMesh | None,
     cage: CageReduction | None,
     compiling: Compiling | None = None,
 ) -> Bearing:
     """Bodies, contacts and compiled equations of motion.
 
-    The whole case, because its text tells the process that helps what to compile.
+    ``compiling`` is what ``begin_compiling`` began; without it, this process compiles alone what is
+    not on disk yet.
     """
-    bearing = bearing_in_motion(case, mesh, cage)
-    compiling = compiling or begin_compiling(case)
+    bearing = bearing_in_motion(specs, mesh, cage)
+    if compiling is None and not kernel_marks.kernels_cached(kernels_of(specs)):
+        compiling = Compiling(_numbers(), None)
     if compiling is not None:
         _compile_from(compiling.pieces, bearing)
         os.close(compiling.pieces)
@@ -111,5 +119,5 @@ def build_bearing(
             piece()
     bearing.evaluate  # noqa: B018
     if compiling is not None:
-        kernel_marks.mark_compiled(kernels_of(case))
+        kernel_marks.mark_compiled(kernels_of(specs))
     return bearing
