@@ -92,6 +92,7 @@ def test_cases_that_pass_exit_with_0(capsys, tmp_path):
     [
         (["verify", "static_laod"], ["'static_laod' is not known", "nearest", "'static_load'"]),
         (["verify", "qqq"], ["'qqq' is not known", "--list"]),
+        (["verify", "free_bearing"], ["'free_bearing' is not known", "--list"]),  # not 'ratings'
         (["verify", "-o", "report.txt"], ["'report.txt' should end in .json or .md"]),
         (["verify", "static_load", "--quick"], ["leave out --quick"]),
     ],
