@@ -11,6 +11,7 @@ from pathlib import Path
 
 from flexcage.case import Case, load_case, load_extension
 from flexcage.case.extensions import sources
+from flexcage.case.sections import MotionSections
 from flexcage.core import jit, kernel_marks
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.reduction import CageReduction
@@ -38,10 +39,10 @@ class Compiling:
     helper: subprocess.Popen | None
 
 
-def kernels_of(case: Case) -> str:
-    """Name of the kernels that a case's run needs: its family's, or those with rings that bend, or
-    without a cage."""
-    parts = (case.bearing.family, "rings" * case.rings_bend, "uncaged" * (case.cage is None))
+def kernels_of(specs: MotionSections) -> str:
+    """Name of the kernels that a run needs: its family's, or those with rings that bend, or without
+    a cage."""
+    parts = (specs.bearing.family, "rings" * specs.rings_bend, "uncaged" * (specs.cage is None))
     return "-".join(filter(None, parts))
 
 
@@ -54,9 +55,7 @@ def begin_compiling(case: Case) -> Compiling | None:
     if kernel_marks.kernels_cached(kernels_of(case)):
         return None
     log.info("compiling the kernels for the first time: 20 to 30 seconds, once")
-    pieces, end = os.pipe()
-    os.write(end, bytes(range(MOST_PIECES)))
-    os.close(end)
+    pieces = _numbers()
     command = f"{SAME_PACKAGE}; from flexcage.core.orphan import end_with; "
     command += f"end_with({os.getpid()}); from flexcage.compiling import compile_pieces; "
     command += "compile_pieces(*sys.argv[1:])"
@@ -69,6 +68,14 @@ def begin_compiling(case: Case) -> Compiling | None:
     except OSError:
         helper = None  # then, or if the case is too long for a command, this one does it alone
     return Compiling(pieces, helper)
+
+
+def _numbers() -> int:
+    """A pipe's end from which the number of every piece can be read, once."""
+    pieces, end = os.pipe()
+    os.write(end, bytes(range(MOST_PIECES)))
+    os.close(end)
+    return pieces
 
 
 def compile_pieces(text: str, *use: str) -> None:
@@ -90,14 +97,19 @@ def _compile_from(pieces: int, bearing: Bearing) -> None:
 
 
 def build_bearing(
-    case: Case,
+    specs: MotionSections,
     mesh: CageMesh | None,
     cage: CageReduction | None,
     compiling: Compiling | None = None,
 ) -> Bearing:
-    """Bodies, contacts and compiled equations of motion."""
-    bearing = bearing_in_motion(case, mesh, cage)
-    compiling = compiling or begin_compiling(case)
+    """Bodies, contacts and compiled equations of motion.
+
+    ``compiling`` is what ``begin_compiling`` began; without it, this process compiles alone what is
+    not on disk yet.
+    """
+    bearing = bearing_in_motion(specs, mesh, cage)
+    if compiling is None and not kernel_marks.kernels_cached(kernels_of(specs)):
+        compiling = Compiling(_numbers(), None)
     if compiling is not None:
         _compile_from(compiling.pieces, bearing)
         os.close(compiling.pieces)
@@ -107,5 +119,5 @@ def build_bearing(
             piece()
     bearing.evaluate  # noqa: B018
     if compiling is not None:
-        kernel_marks.mark_compiled(kernels_of(case))
+        kernel_marks.mark_compiled(kernels_of(specs))
     return bearing

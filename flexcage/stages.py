@@ -1,7 +1,10 @@
 """The stages before a run: each turns specs and what came before into the next frozen value.
 
-cage -> mesh -> modes -> bodies -> contacts and system -> start. A stage takes those sections of a
-case that it needs: the cage's, a static solution's, or all (``case.sections``).
+cage -> mesh -> modes -> bodies -> contacts and system -> start. A stage names the group of sections
+(``case.sections``) that it reads. A case is all groups, so that a script with a case writes
+``cage_mesh(case)``. One without a case makes the group, of the few values that it has:
+``cage_mesh(MeshSections(bearing=..., cage=...))``. Groups check nothing: a case does, when it is
+made.
 """
 
 from __future__ import annotations
@@ -16,7 +19,16 @@ from flexcage.bearings import bending_of, motion_of, sections_of, statics_of
 from flexcage.bodies.cage import flexible_from_reduction, rigid_from_tets
 from flexcage.bodies.floating_frame import FlexibleBody
 from flexcage.cages.build import build_cage_mesh, reduce_cage, rigid_interface_of
-from flexcage.case.sections import CageSections, CaseSections, StaticSections
+from flexcage.case.sections import (
+    CageSections,
+    LoadedSections,
+    MeshSections,
+    ModesSections,
+    MotionSections,
+    PocketSections,
+    RingSections,
+    StartSections,
+)
 from flexcage.core.progress import Silent
 from flexcage.core.timing import Stages
 from flexcage.mesh.cage_mesh import CageMesh
@@ -53,7 +65,7 @@ def made_cage(specs: CageSections, stages: Stages) -> Cage:
     return mesh, stages.named("modes", cage_reduction, specs, mesh)
 
 
-def cage_mesh(specs: CageSections) -> CageMesh:
+def cage_mesh(specs: MeshSections) -> CageMesh:
     """Mesh of a cage, checked."""
     mesh = build_cage_mesh(**specs.cage_shape)
     check_mesh(mesh, where=specs.mesh.file or "mesh")
@@ -68,7 +80,7 @@ def cage_reduction(specs: CageSections, mesh: CageMesh) -> CageReduction | None:
     return next((cage for cage in _at_hand if cage.same_as(made)), made)
 
 
-def _reduced(specs: CageSections, mesh: CageMesh) -> CageReduction:
+def _reduced(specs: ModesSections, mesh: CageMesh) -> CageReduction:
     return reduce_cage(
         mesh,
         cage=specs.its_cage,
@@ -87,18 +99,18 @@ def keep_at_hand(cage: CageReduction | None) -> None:
     _at_hand[:] = [] if cage is None else [cage]
 
 
-def cage_modes(specs: CageSections) -> ModeTable:
+def cage_modes(specs: ModesSections) -> ModeTable:
     """Mode table of a cage, taken as flexible."""
     return flexible_cage(specs).table
 
 
-def flexible_cage(specs: CageSections) -> CageReduction:
+def flexible_cage(specs: ModesSections) -> CageReduction:
     """The reduction of a cage, taken as flexible."""
     return _reduced(specs, cage_mesh(specs))
 
 
 def bearing_in_motion(
-    specs: CaseSections, mesh: CageMesh | None, cage: CageReduction | None
+    specs: MotionSections, mesh: CageMesh | None, cage: CageReduction | None
 ) -> Bearing:
     """Bodies, contacts and equations of motion, which are compiled when first asked for."""
     seat = compliance_of(specs.mount, specs.bearing)
@@ -112,7 +124,7 @@ def bearing_in_motion(
     return _assembled(specs, (body, _rigid_interface(specs)), rings, seat)
 
 
-def bearing_to_compile(specs: CaseSections) -> Bearing:
+def bearing_to_compile(specs: MotionSections) -> Bearing:
     """The same with any body for its cage, and a seat that stands: kernels are alike for all."""
     if specs.cage is None:
         return _assembled(specs, None)
@@ -120,18 +132,18 @@ def bearing_to_compile(specs: CaseSections) -> Bearing:
     return _assembled(specs, (body, _rigid_interface(specs)))
 
 
-def _rigid_interface(specs: CaseSections) -> Any:
+def _rigid_interface(specs: PocketSections) -> Any:
     count = specs.bearing.element_count
     return rigid_interface_of(specs.its_cage, pocket_count=count, defects=specs.all_defects)
 
 
-def bent_rings(specs: CaseSections) -> tuple[BentRing, ...]:
+def bent_rings(specs: RingSections) -> tuple[BentRing, ...]:
     """The rings that bend, as a run begins; none if both are rigid."""
     rings = _moving_rings(specs, compliance_of(specs.mount, specs.bearing))
     return rings.start.rings if rings else ()
 
 
-def _moving_rings(specs: CaseSections, seat: np.ndarray | None) -> MovingRings | None:
+def _moving_rings(specs: RingSections, seat: np.ndarray | None) -> MovingRings | None:
     if not specs.rings_bend:
         return None
     rings = replace(_rings_of(specs), heavier=heaviest_load(specs.load))
@@ -150,12 +162,12 @@ def _shake_on_their_seats(specs: CaseSections, seat: np.ndarray | None) -> tuple
     return inner, stands or mount.mass >= bearing.outer_ring_mass
 
 
-def _rings_of(specs: CaseSections) -> Rings:
+def _rings_of(specs: RingSections) -> Rings:
     return Rings(specs.inner_ring, specs.outer_ring, sections_of(specs.bearing))
 
 
 def _statics(
-    specs: StaticSections, rings: Rings | None = None, seat: np.ndarray | None = None
+    specs: LoadedSections, rings: Rings | None = None, seat: np.ndarray | None = None
 ) -> StaticSolution:
     return solve_bearing(
         specs.bearing, statics_of(specs.bearing), load=specs.load, speed=specs.speed,
@@ -165,7 +177,7 @@ def _statics(
 
 
 def _assembled(
-    specs: CaseSections, cage: tuple[FlexibleBody, Any] | None, rings: MovingRings | None = None,
+    specs: MotionSections, cage: tuple[FlexibleBody, Any] | None, rings: MovingRings | None = None,
     seat: np.ndarray | None = None,
 ) -> Bearing:  # fmt: skip
     """``cage``: its body, and what moves in its pockets; ``rings``: those that bend, any if they
@@ -204,7 +216,7 @@ def _assembled(
 
 
 def assembled_start(
-    specs: CaseSections, bearing: Bearing, progress: Callable[..., Any] = Silent
+    specs: StartSections, bearing: Bearing, progress: Callable[..., Any] = Silent
 ) -> Start:
     """Where a run begins: the bearing assembled and in equilibrium at the drive's first speed, its
     cage pushed off if ``start`` says so, and all on the constraints.

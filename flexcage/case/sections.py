@@ -1,6 +1,6 @@
-"""Sections of a case, unchecked: what checks, words and stages read.
+"""Sections of a case, unchecked, in the groups that stages, checks and words read.
 
-``Case`` and ``StaticCase`` are these with their checks, texts and hashes.
+``Case`` and ``StaticCase`` are all of them with their checks, texts and hashes.
 """
 
 from __future__ import annotations
@@ -30,21 +30,61 @@ CAGE_MODELS = ("flexible", "rigid", NO_CAGE)
 OF_CAGE = ("cage", "defects", "mesh", "modes")  # sections that go with a cage
 
 
+def _mount() -> Any:
+    return option(Mount(), doc="what holds the outer ring")
+
+
+def _constraints() -> Any:
+    return option((), doc="what holds or moves rings and cage besides, any number")
+
+
+def _modes() -> Any:
+    return option(ModesSpec(), doc="the cage's modes")
+
+
 @dataclass(frozen=True, kw_only=True)
-class StaticSections:
-    """Bearing, contacts, load, speed and options, of which a static solution is made."""
+class NamedSections:
+    """What a case is called, and where it comes from."""
 
     name: str = option("case", doc="name, for titles and folders")
     description: str = option("", doc="what this case is for")
     preset: str = option("", doc="preset that the case started from")
+
+
+@dataclass(frozen=True, kw_only=True)
+class LoadedSections:
+    """A bearing under load, turning."""
+
     bearing: Bearing = option(doc="the bearing")
     contacts: Contacts = option(Contacts(), doc="contact laws, place by place")
     lubricant: Lubricant = option(Lubricant(), doc="the lubricant")
     drive: Drive = option(Drive(speed=0.0), doc="what turns the inner ring")
     load: Load = option(Load(), doc="what loads the inner ring")
+
+    @property
+    def speed(self) -> float:
+        """Speed of the inner ring [rad/s] at the start."""
+        return self.drive.at_start
+
+
+@dataclass(frozen=True, kw_only=True)
+class RingSections(LoadedSections):
+    """The same with its rings: how they bend, and what holds the outer one."""
+
     inner_ring: InnerRing = option(InnerRing(), doc="how the inner ring bends, if it does")
     outer_ring: OuterRing = option(OuterRing(), doc="how the outer ring bends, if it does")
-    mount: Mount = option(Mount(), doc="what holds the outer ring")
+    mount: Mount = _mount()
+
+    @property
+    def rings_bend(self) -> bool:
+        """Does a ring bend?"""
+        return self.inner_ring.bends or self.outer_ring.bends
+
+
+@dataclass(frozen=True, kw_only=True)
+class StaticSections(RingSections, NamedSections):
+    """Bearing, contacts, load, speed and options, of which a static solution is made."""
+
     static: StaticOptions = option(StaticOptions(), doc="how a static solution is meant")
     given: tuple[str, ...] | None = dataclasses.field(
         default=None, compare=False,
@@ -54,30 +94,14 @@ class StaticSections:
     elsewhere: ClassVar[Mapping[str, str]] = SURROUNDINGS
     _in_motion = False  # does it read all of [mount], or the housing's body alone?
 
-    @property
-    def rings_bend(self) -> bool:
-        """Does a ring bend?"""
-        return self.inner_ring.bends or self.outer_ring.bends
-
-    @property
-    def speed(self) -> float:
-        """Speed of the inner ring [rad/s] at the start."""
-        return self.drive.at_start
-
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class CageSections:
-    """A cage: of which shape, how flexible, and in which bearing."""
+class PocketSections:
+    """A cage in its bearing: where its pockets are, and how they are deformed."""
 
     bearing: Bearing = option(doc="the bearing")
     cage: Cage | None = option(None, doc="the cage")
-    cage_model: str = option(
-        "flexible", choices=CAGE_MODELS,
-        doc="how the cage is modelled; none: a full complement, without a cage",
-    )  # fmt: skip
     defects: tuple[CageDefect, ...] = option((), doc="deformations of the cage, any number")
-    mesh: MeshOptions = option(MeshOptions(), doc="the cage's mesh")
-    modes: ModesSpec = option(ModesSpec(), doc="the cage's modes")
     seed: int = option(0, doc="seed of everything random in a bearing: sizes, places", minimum=0)
 
     @property
@@ -93,6 +117,22 @@ class CageSections:
         return self.cage
 
     @property
+    def all_defects(self) -> tuple[CageDefect, ...]:
+        """Defects that the case names, and those that make its pockets' spacing uneven; none
+        without a cage."""
+        if self.cage is None:
+            return ()
+        uneven = defect_spec(self.cage).by_chance(self.cage, self.bearing.element_count, self.seed)
+        return (*self.defects, *uneven)
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class MeshSections(PocketSections):
+    """The same, to be meshed."""
+
+    mesh: MeshOptions = option(MeshOptions(), doc="the cage's mesh")
+
+    @property
     def cage_shape(self) -> dict[str, Any]:
         """What ``cages.build.build_cage_mesh`` asks for, by name."""
         return {
@@ -103,14 +143,22 @@ class CageSections:
             "options": self.mesh,
         }
 
-    @property
-    def all_defects(self) -> tuple[CageDefect, ...]:
-        """Defects that the case names, and those that make its pockets' spacing uneven; none
-        without a cage."""
-        if self.cage is None:
-            return ()
-        uneven = defect_spec(self.cage).by_chance(self.cage, self.bearing.element_count, self.seed)
-        return (*self.defects, *uneven)
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class ModesSections(MeshSections):
+    """The same, to be reduced to modes."""
+
+    modes: ModesSpec = _modes()
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class CageSections(ModesSections):
+    """The same, if it is flexible."""
+
+    cage_model: str = option(
+        "flexible", choices=CAGE_MODELS,
+        doc="how the cage is modelled; none: a full complement, without a cage",
+    )  # fmt: skip
 
     @property
     def riveted(self) -> bool:
@@ -119,17 +167,30 @@ class CageSections:
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class CaseSections(CageSections, StaticSections):
-    """Both, and how the bearing is driven, held and solved."""
+class MotionSections(PocketSections, RingSections):
+    """What moves and what acts on it, and how often it is looked at."""
+
+    modes: ModesSpec = _modes()
+    constraints: tuple[Constraint, ...] = _constraints()
+    output: OutputOptions = option(OutputOptions(), doc="what is kept of a run")
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class StartSections(LoadedSections):
+    """How a bearing in motion begins."""
+
+    mount: Mount = _mount()
+    constraints: tuple[Constraint, ...] = _constraints()
+    start: StartOptions = option(StartOptions(), doc="how the start departs from equilibrium")
+    limits: Limits = option(Limits(), doc="limits beyond which a start is refused")
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class CaseSections(MotionSections, StartSections, CageSections, StaticSections):
+    """All of them, and the integrator."""
 
     drive: Drive = option(Drive(), doc="what turns the inner ring")
-    constraints: tuple[Constraint, ...] = option(
-        (), doc="what holds or moves rings and cage besides, any number"
-    )
-    start: StartOptions = option(StartOptions(), doc="how the start departs from equilibrium")
     solver: SolverOptions = option(SolverOptions(), doc="the integrator")
-    output: OutputOptions = option(OutputOptions(), doc="what is kept of a run")
-    limits: Limits = option(Limits(), doc="limits beyond which a start is refused")
 
     _in_motion = True
 

@@ -42,7 +42,7 @@ def chosen(names: Sequence[str] = (), *, quick: bool = False) -> list[KnownAnswe
     """
     for name in names:
         if name not in CHAPTER:
-            near = difflib.get_close_matches(name, CHAPTER, n=1, cutoff=0.5)
+            near = difflib.get_close_matches(name, CHAPTER, n=1, cutoff=0.6)
             hint = f"the nearest known one is '{near[0]}'" if near else "--list shows all"
             raise InputError(
                 f"Verification case '{name}' is not known; {hint}.", where="verify", value=name

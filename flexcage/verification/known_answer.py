@@ -39,7 +39,7 @@ class Row:
 
     @property
     def passed(self) -> bool:
-        return isfinite(self.difference) and abs(self.difference) <= self.tolerance.size
+        return isfinite(self.difference) and bool(abs(self.difference) <= self.tolerance.size)
 
     @property
     def difference_text(self) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from free_motion import Tumbler, free_body, launch, tumbler
 from scipy import sparse
 from scipy.spatial.transform import Rotation
 
@@ -18,7 +19,6 @@ from flexcage.bodies.floating_frame import (
     with_point_mass,
 )
 from flexcage.core.errors import InputError
-from flexcage.verification.free_motion import Tumbler, free_body, launch, tumbler
 
 SPIN_STIFFNESS = np.array([[3.0, 1, 0, 0], [1, 2, 0, -1], [0, 0, 4, 0], [0, -1, 0, 5]])
 

@@ -4,7 +4,7 @@ import pytest
 
 from flexcage.cli import main
 from flexcage.simulate import simulate
-from flexcage.verification.n1013 import n1013
+from flexcage.verification.runs import n1013
 
 
 @pytest.fixture(scope="module")

@@ -2,10 +2,13 @@
 
 import json
 import math
+import re
+from pathlib import Path
 
+import numpy as np
 import pytest
 
-from flexcage import cli
+from flexcage import cli, verification
 from flexcage.core.errors import InputError
 from flexcage.verification import KnownAnswer, Row, Tolerance, chapter, register_case, run_case
 
@@ -54,6 +57,23 @@ def test_a_failing_case_from_outside_is_reported_and_exits_with_1(tmp_path, caps
     assert [r["passed"] for r in report["cases"][0]["rows"]] == [True, False]
 
 
+def test_the_case_of_the_page_passes(tmp_path, capsys):
+    page = Path(verification.__file__).with_name("README.md").read_text("utf-8")
+    (block,) = re.findall(r"^```python\n(.*?)^```", page, flags=re.S | re.M)
+    (tmp_path / "my_case.py").write_text(block)
+    assert cli.main(["verify", "my_rating", "--use", "my_case.py", "-o", "mine.json"]) == 0
+    assert "1 of 1 cases passed, 1 of 1 rows" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("number", [float, np.float64])
+def test_a_report_is_written_of_numbers_of_numpy_as_well(number, tmp_path):
+    row = Row("one", "", number(1.0), number(1.0), Tolerance(0.1, "near"))
+    chapter.register_case(case(row))
+    assert cli.main(["verify", "own", "-o", "report.json"]) == 0
+    (written,) = json.loads((tmp_path / "report.json").read_text())["cases"]
+    assert written["rows"][0]["passed"] is True
+
+
 def test_cases_that_pass_exit_with_0(capsys, tmp_path):
     assert cli.main(["verify", "ratings", "-o", "report.md"]) == 0
     out = capsys.readouterr().out
@@ -72,6 +92,7 @@ def test_cases_that_pass_exit_with_0(capsys, tmp_path):
     [
         (["verify", "static_laod"], ["'static_laod' is not known", "nearest", "'static_load'"]),
         (["verify", "qqq"], ["'qqq' is not known", "--list"]),
+        (["verify", "free_bearing"], ["'free_bearing' is not known", "--list"]),  # not 'ratings'
         (["verify", "-o", "report.txt"], ["'report.txt' should end in .json or .md"]),
         (["verify", "static_load", "--quick"], ["leave out --quick"]),
     ],

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-
-from flexcage.verification.law_values import friction
-from flexcage.verification.law_values import normal as at_onset
+from law_values import friction
+from law_values import normal as at_onset
 
 
 def check_normal_law(law, p, *, depth=2e-5, speed=0.5, onset=0.2):

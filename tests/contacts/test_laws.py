@@ -1,10 +1,11 @@
-"""What laws owe their callers, and their limits; known answers are in flexcage/verification."""
+"""What laws owe their callers, and their limits; known answers are in test_known_*.py."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 from law_checks import check_friction_law, check_normal_law
+from law_values import friction, normal, rolling
 from scipy.integrate import quad
 
 from flexcage.case.presets import load_preset
@@ -12,8 +13,6 @@ from flexcage.contacts import laws
 from flexcage.contacts.spec import FRICTION_LAWS as FRICTION_SPECS
 from flexcage.contacts.spec import EhlTraction, FrictionLaw, Lubricant, NormalLaw
 from flexcage.core.jit import kernel
-from flexcage.verification.cases.land_film import film
-from flexcage.verification.law_values import friction, normal, rolling
 
 HERTZ_BALL = 8.69343e9  # N/m^1.5, ball of a 7010C
 LINE = 454517.4944 * 1e3 ** (10.0 / 9.0)  # N/m^(10/9), N1013 roller on one race
@@ -137,24 +136,6 @@ def test_pocket_line_law_less_the_patch_of_the_mesh():
         strip = -quad(lambda s: np.log(s) / w, 0, w)[0]
         share = (load / k) ** (1 / n) / (2 * q * soft / np.pi * (hertz - strip))
         assert share == pytest.approx(0.98, abs=0.022)
-
-
-def test_land_film_whirling_at_half_speed_carries_nothing():
-    eps, whirl = 0.4, 50.0  # half of the sum of speeds
-    out = film(eps, rate=(0.0, whirl * eps * 1e-4))
-    np.testing.assert_allclose(out[:2], 0.0, atol=1e-12)
-    faster = film(eps, rate=(0.0, 2 * whirl * eps * 1e-4))
-    assert faster[1] == pytest.approx(-film(eps)[1])  # damps a whirl above half speed
-    assert faster[0] == pytest.approx(film(eps)[0])
-
-
-def test_land_film_turns_with_its_eccentricity():
-    still = film(0.5, rate=(0.01, -0.02))
-    c, s = np.cos(0.7), np.sin(0.7)
-    turned = film(0.5, direction=0.7, rate=(0.01 * c + 0.02 * s, 0.01 * s - 0.02 * c))
-    np.testing.assert_allclose(
-        turned, [c * still[0] - s * still[1], s * still[0] + c * still[1], still[2]], rtol=1e-12
-    )
 
 
 def test_preset_slices_share_one_stiffness():

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from contact_kernels import race, turned
+from law_values import rolling
 
 from flexcage.bearings.cylindrical_roller.bearing import RollerProfile
 from flexcage.contacts import laws
@@ -22,7 +23,6 @@ from flexcage.contacts.evaluation import (
 )
 from flexcage.contacts.spec import Contacts, FrictionLaw, NormalLaw, PairSpec
 from flexcage.geometry.spall import Spall
-from flexcage.verification.law_values import rolling
 
 
 @pytest.fixture(scope="module")

@@ -113,7 +113,7 @@ def test_every_page_is_reached_from_the_main_page():
             for target in links(page) if target.partition("#")[0]
         }  # fmt: skip
     left = {name_of(page) for page in PAGES if page not in reached}
-    assert not {name for name in left if not name.startswith("flexcage/verification/data/")}
+    assert not {name for name in left if not name.startswith("tests/bodies/data/")}
 
 
 def test_the_gallery_names_every_example():

@@ -5,6 +5,7 @@ from types import MappingProxyType
 
 import numpy as np
 import pytest
+from solids import ring
 
 from flexcage.cages.build import build_cage_mesh
 from flexcage.cages.ribbon.defects import MissingRivet
@@ -21,7 +22,6 @@ from flexcage.fem.model import assemble
 from flexcage.geometry.materials import MATERIALS
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.pockets import pocket_loads
-from flexcage.verification.solids import ring
 
 BRASS = MATERIALS["brass"]
 POCKETS = 9

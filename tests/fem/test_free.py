@@ -4,13 +4,13 @@ import dataclasses
 
 import numpy as np
 import pytest
+from solids import box, ring
 
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.modal import free_modes
 from flexcage.fem.model import assemble
 from flexcage.fem.symmetry import find_symmetry
 from flexcage.geometry.materials import Material
-from flexcage.verification.solids import box, ring
 
 STEEL = Material(name="V6 steel", youngs_modulus=207e9, poisson_ratio=0.3, density=7800.0)
 NO_POISSON = dataclasses.replace(STEEL, poisson_ratio=0.0)

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 import scipy.sparse as sp
+from solids import box
 
 from flexcage.core.errors import RunFailed
 from flexcage.fem.dissection import dissect
 from flexcage.fem.fronts import Elimination
 from flexcage.fem.model import assemble
 from flexcage.geometry.materials import MATERIALS
-from flexcage.verification.solids import box
 
 LEFT = 15  # unknowns that are not eliminated
 

@@ -3,6 +3,7 @@ import logging
 import numpy as np
 import pytest
 import scipy.sparse as sp
+from solids import box
 
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.fem.free import FreeBodySolver
@@ -10,7 +11,6 @@ from flexcage.fem.linear import available_kinds, linear_solver
 from flexcage.fem.model import assemble
 from flexcage.geometry.materials import MATERIALS
 from flexcage.mesh.cage_mesh import CageMesh
-from flexcage.verification.solids import box
 
 BRASS = MATERIALS["brass"]
 

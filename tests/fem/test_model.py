@@ -5,13 +5,13 @@ import numpy as np
 import pytest
 import skfem
 from skfem.models.elasticity import lame_parameters, linear_elasticity
+from solids import box
 
 from flexcage.core.errors import InputError
 from flexcage.fem.linear import linear_solver
 from flexcage.fem.model import assemble
 from flexcage.geometry.materials import MATERIALS
 from flexcage.mesh.cage_mesh import CageMesh
-from flexcage.verification.solids import box
 
 BRASS = MATERIALS["brass"]
 

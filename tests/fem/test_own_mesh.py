@@ -6,6 +6,7 @@ from types import MappingProxyType
 import numpy as np
 import pytest
 from own_mesh import renumbered
+from solids import box
 from test_condensed import BENT, POCKETS, SIDE, cage_mesh
 
 from flexcage.fem.condensed import CondensedRing
@@ -16,7 +17,6 @@ from flexcage.fem.model import assemble
 from flexcage.geometry.materials import MATERIALS
 from flexcage.mesh.io import read_mesh, write_mesh
 from flexcage.modes.pockets import pocket_loads
-from flexcage.verification.solids import box
 
 BRASS = MATERIALS["brass"]
 

@@ -5,13 +5,13 @@ import dataclasses
 import numpy as np
 import pytest
 import skfem
+from solids import box, ring
 
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import assemble
 from flexcage.fem.prestress import geometric_stiffness
 from flexcage.geometry.materials import Material
 from flexcage.modes.ritz import centrifugal_load
-from flexcage.verification.solids import box, ring
 
 STEEL = Material(name="V6 steel", youngs_modulus=207e9, poisson_ratio=0.3, density=7800.0)
 NO_POISSON = dataclasses.replace(STEEL, poisson_ratio=0.0)

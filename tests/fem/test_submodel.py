@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from solids import box, ring
 
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import assemble
@@ -9,7 +10,6 @@ from flexcage.fem.submodel import submodel
 from flexcage.geometry.materials import MATERIALS
 from flexcage.mesh.cage_mesh import signed_volumes
 from flexcage.stress.operators import VertexStress
-from flexcage.verification.solids import box, ring
 
 STEEL = MATERIALS["GCr15"]
 NONE = np.empty((0, 3), int)

@@ -10,8 +10,7 @@ import pytest
 import flexcage
 from flexcage.case import load_static
 from flexcage.simulate import simulate
-from flexcage.verification.c7010 import NO_OIL, c7010
-from flexcage.verification.n1013 import n1013
+from flexcage.verification.runs import NO_OIL, c7010, n1013
 
 STATIC = """
 [bearing]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from c7010_states import bearing_of
 from simulate_cases import Interrupted
 
 from flexcage.case import load_case
@@ -15,7 +16,6 @@ from flexcage.results.metrics import settled
 from flexcage.results.registry import VARIABLES, variables_of
 from flexcage.results.spectra import run_frequencies
 from flexcage.simulate import load_run, simulate
-from flexcage.verification.c7010 import bearing_of
 
 BASE = {
     "bearing": {"preset": "7010C-PI"},
@@ -250,7 +250,7 @@ def test_a_deformed_pocket_is_felt_where_it_is():
     """A cage pressed forward meets the ball of a pocket that is displaced backwards first."""
     from flexcage.compiling import build_bearing
     from flexcage.stages import cage_mesh
-    from flexcage.verification.c7010 import c7010 as rigid
+    from flexcage.verification.runs import c7010 as rigid
 
     def touching(*defects):
         case = rigid({"defects": list(defects)}) if defects else rigid()

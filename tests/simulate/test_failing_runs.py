@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from n1013_states import bearing_of
 from simulate_cases import Interrupted
 
 from flexcage.bearings.cylindrical_roller.recording import RECORDING, overlaps
@@ -11,7 +12,7 @@ from flexcage.core.errors import InputError, RunFailed
 from flexcage.integrate.integration import Integration
 from flexcage.integrate.recorded import new_store
 from flexcage.system.start import find_start
-from flexcage.verification.n1013 import bearing_of, n1013
+from flexcage.verification.runs import n1013
 
 BLOCK = 50 / 50e3  # [s]
 

@@ -13,8 +13,8 @@ from flexcage.results.statistics import Windows
 from flexcage.simulate import simulate
 from flexcage.stress.wear import wear
 from flexcage.stress.wear_laws import WEAR_LAWS, WearLaw, register_wear_law, wear_law
-from flexcage.verification.c7010 import c7010
-from flexcage.verification.n1013 import n1013 as n1013_case
+from flexcage.verification.runs import c7010
+from flexcage.verification.runs import n1013 as n1013_case
 
 Z, NT, SLICES, STEP = 22, 400, 16, 2e-5
 CAGE_SPEED, SPIN, RISE, FORCE, MU = 280.0, -2900.0, 0.5, 12.0, 0.05  # rad/s, m/s, N

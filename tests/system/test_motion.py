@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from bearing_runs import march, rolling_start
+from law_values import rolling
 from scipy.integrate import solve_ivp
 
 from flexcage.bearings.cylindrical_roller.bearing import RollerProfile
@@ -14,7 +15,6 @@ from flexcage.bodies.floating_frame import rigid_body
 from flexcage.contacts import laws
 from flexcage.contacts.spec import Contacts, FrictionLaw, Lubricant, NormalLaw, PairSpec
 from flexcage.system.spec import Drive, Load
-from flexcage.verification.law_values import rolling
 
 RPM = 2 * np.pi / 60
 SMOOTH = PairSpec(friction=FrictionLaw(law="none"))

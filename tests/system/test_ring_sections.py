@@ -101,7 +101,8 @@ def test_ribs_and_lands_push_along_the_slopes_of_their_energy(preset, more, wher
         assert -(ends[0] - ends[1]) / 2e-12 == pytest.approx(forces[m], abs=2e-4 * scale), m
     if "aside" in where:
         radius = layout.q(y)["elements"][:, 1]
-        largest = np.abs(wrenches[:, 2]).max()
+        # rollers turn about the bearing's centre, the slope is one about the ring's
+        allowed = 1e-3 * np.abs(wrenches[:, 2]).max() + 1e-4 * np.abs(wrenches[:, 0]).max()
         for i in range(layout.elements):
             ends = []
             for h in (1e-8, -1e-8):
@@ -109,7 +110,7 @@ def test_ribs_and_lands_push_along_the_slopes_of_their_energy(preset, more, wher
                 layout.q(moved)["elements"][i, 2] += h
                 ends.append(bent.energy(moved))
             slope = -(ends[0] - ends[1]) / 2e-8
-            assert slope / radius[i] == pytest.approx(wrenches[i, 2], abs=1e-3 * largest), i
+            assert slope / radius[i] == pytest.approx(wrenches[i, 2], abs=allowed), i
     if "lands" in where:
         assert np.abs(pushed["cage"]).max() > 1.0
         for c in (1, 2):

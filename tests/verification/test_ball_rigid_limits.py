@@ -13,7 +13,7 @@ from flexcage.simulate import simulate
 from flexcage.stages import cage_mesh, cage_reduction
 from flexcage.system.layout import Layout, bodies_of_bearing
 from flexcage.system.problem import Bearing
-from flexcage.verification.c7010 import c7010
+from flexcage.verification.runs import c7010
 
 THROWN = {  # against balls of different load; trajectories part soon after
     "load.radial": "40 N",
@@ -113,6 +113,6 @@ def test_frozen_modes_leave_the_rigid_equations(frozen_and_rigid):
         rigid.residual(0.0, y, yd, 2)
         assert np.count_nonzero(rigid.data.work.report.pocket_normal) >= 4
         for name, values in expected.items():
-            if name != "modes":
+            if name != "modes" and values.size:
                 scale = np.abs(values).max() + 10.0 * rigid.data.model.cage.mass
                 np.testing.assert_allclose(ours[name], values, atol=1e-9 * scale, err_msg=name)

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from flexcage.simulate import simulate
-from flexcage.verification.c7010 import NO_OIL, c7010
+from flexcage.verification.runs import NO_OIL, c7010
 
 EX = np.array([1.0, 0.0, 0.0])
 

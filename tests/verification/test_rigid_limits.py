@@ -158,7 +158,7 @@ def test_frozen_modes_leave_the_rigid_equations(frozen_and_rigid):
         rigid.residual(0.0, y, yd, 2)
         assert np.count_nonzero(rigid.data.work.report.pocket_normal) >= 5
         for name, values in expected.items():
-            if name != "modes":
+            if name != "modes" and values.size:
                 scale = np.abs(values).max() + 10.0 * mass
                 np.testing.assert_allclose(ours[name], values, atol=1e-9 * scale, err_msg=name)
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import root
 from scipy.special import ellipe, ellipk
 
-from flexcage.verification.ball_bearings import deep_groove, solved
+from flexcage.verification.bearings import deep_groove, solved
 from flexcage.verification.cases.ball_tilt_run import CASES
 
 Z, BALL, PITCH, INNER, OUTER = 7, 11.5, 43.5, 0.52 * 11.5, 0.53 * 11.5  # mm

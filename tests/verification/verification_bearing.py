@@ -5,18 +5,12 @@ from __future__ import annotations
 import logging
 
 import numpy as np
+from marching import march
+from n1013_states import bearing_of, cage_of, state_at_rest
 from scipy.interpolate import CubicHermiteSpline
 
 from flexcage.system.layout import Layout
-from flexcage.verification.n1013 import (
-    FRICTIONLESS,
-    NO_OIL,
-    bearing_of,
-    cage_of,
-    march,
-    n1013,
-    state_at_rest,
-)
+from flexcage.verification.runs import FRICTIONLESS, NO_OIL, n1013
 
 __all__ = [
     "FRICTIONLESS",

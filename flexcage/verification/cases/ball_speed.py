@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from flexcage.system.statics.options import StaticOptions
-from flexcage.system.statics.solution import StaticSolution
-from flexcage.verification.ball_bearings import RPM, angles, preset, solved
+from flexcage import StaticSolution
+from flexcage.spec import StaticOptions
+from flexcage.verification.bearings import RPM, angles, preset, solved
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 
 # 7010C-PI under 100 N without friction: speed [rpm], prescribed cage speed [rpm]; angles [deg] and
@@ -71,7 +71,7 @@ def _inertia(
     yield Row(f"{where}: friction asked of the outer race", "", friction, asked, FRICTION)
 
 
-CASE = KnownAnswer(
+CASE: KnownAnswer = KnownAnswer(
     name="ball_speed",
     title="Angular contact ball bearings at speed",
     source="independent program after A. B. Jones (1960) and T. A. Harris, Rolling Bearing "

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from flexcage.system.statics.options import StaticOptions
-from flexcage.verification.ball_bearings import RPM, angles, bearing_218, preset, solved
+from flexcage.spec import StaticOptions
+from flexcage.verification.bearings import RPM, angles, bearing_218, preset, solved
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 
 # preset, axial load [N]: contact angle [deg], axial displacement [um], force of a ball [N]
@@ -68,7 +68,7 @@ def _combined() -> Iterator[Row]:
     yield Row(f"{where}, 2000 rpm: fastest ball", "rpm", 944.86, speeds.max(), PRINTED)
 
 
-CASE = KnownAnswer(
+CASE: KnownAnswer = KnownAnswer(
     name="ball_statics",
     title="Angular contact ball bearings at rest",
     source="closed form for axial load, Fa = Z K A^1.5 sin(a) (cos(a0)/cos(a) - 1)^1.5 (T. A. "

@@ -5,12 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from math import asin, hypot
 
-from flexcage.compiling import build_bearing
-from flexcage.stages import cage_mesh
-from flexcage.verification.ball_bearings import deep_groove
-from flexcage.verification.c7010 import NO_OIL, balls_on_outer, march
-from flexcage.verification.deep_groove import case_of
+from flexcage.verification.bearings import deep_groove
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
+from flexcage.verification.runs import NO_OIL, in_a_cage, run_of
 
 SLOT = {"type": "elongated", "direction": "axial", "elongation": "0.5 mm"}
 STANDING = {  # a heavy cage keeps balls at their azimuths within 0.5 um, and lets them move aside
@@ -41,11 +38,10 @@ AT_REST = Tolerance(1e-4, "printed to six digits; what is left of the motion")
 
 
 def standing(clearance: float, load: Mapping[str, str]) -> tuple[float, float, float]:
-    """Radial, axial displacement [um] and tilt [mrad] of the ring at the end of a run under a load
-    that comes at once, at a radial clearance [um]."""
-    case = case_of(deep_groove(clearance * 1e-6), NO_OIL, STANDING, load)
-    bearing = build_bearing(case, cage_mesh(case), None)
-    end = march(case, bearing, *balls_on_outer(bearing)).isel(time=-1)
+    """Radial, axial displacement [um] and tilt [mrad] of the ring at the end of a run under a load,
+    at a radial clearance [um]."""
+    case = in_a_cage(deep_groove(clearance * 1e-6), NO_OIL, STANDING, load)
+    end = run_of(case).dataset.isel(time=-1)
     x, y, z = (1e6 * float(v) for v in end["inner_position"])
     w, i, j, k = (float(v) for v in end["inner_quaternion"])
     across = 2.0 * hypot(i * j + w * k, i * k - w * j)
@@ -61,17 +57,17 @@ def rows() -> Iterator[Row]:
                 yield Row(f"{where}: {name}", unit, reference, found, AT_REST)
 
 
-CASE = KnownAnswer(
+CASE: KnownAnswer = KnownAnswer(
     name="ball_tilt_run",
     title="A ball bearing in motion whose ring tilts",
     source="least energy of rigid rings and Hertz contacts with finite rotations, by an "
     "independent program (tests/verification/test_tilted_ring.py); with small rotations it gives "
     "the 3.647 and 2.6592 mrad of `iso_16281_balls`",
-    checks="The bearing of the ISO/TS 16281 cases stands, unloaded; a moment of 1 N m, or 1000 N "
-    "along and across the axis, comes on its inner ring, free in all motions, and damping brings "
-    "it to rest. A tilt draws the inner groove's centres inwards by its square, 0.15 um here where "
-    "balls are pressed in by 5 um: that alone makes it 1.7 to 2.1 % larger than small rotations, "
-    "as in the static solution, have it.",
+    checks="The bearing of the ISO/TS 16281 cases stands under 1 N m, or 1000 N along and across "
+    "the axis, its inner ring free in all motions. The run begins at the static solution, whose "
+    "rotations are small ones, and damping brings the ring to rest where finite rotations have it. "
+    "A tilt draws the inner groove's centres inwards by its square, 0.15 um here where balls are "
+    "pressed in by 5 um: that alone makes it 1.7 to 2.1 % larger.",
     rows=rows,
     quick=False,
 )

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import hypot
 
-from flexcage.system.statics.options import StaticOptions
-from flexcage.system.statics.solution import StaticSolution
-from flexcage.verification.ball_bearings import deep_groove, solved
+from flexcage import StaticSolution
+from flexcage.spec import StaticOptions
+from flexcage.verification.bearings import deep_groove, solved
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 
 RATING = 23.4e3  # N, given with the cases
@@ -55,7 +55,7 @@ def rows() -> Iterator[Row]:
         yield Row(f"lever '{arm}', moment: tilt", "mrad", moment, found, ARMS)
 
 
-CASE = KnownAnswer(
+CASE: KnownAnswer = KnownAnswer(
     name="iso_16281_balls",
     title="ISO/TS 16281 for a deep groove ball bearing",
     source="displacements and lives of a commercial program (MASTA) as the public repository "

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import pi, radians
 
-from flexcage.geometry.kinematics import epicyclic
+from flexcage import epicyclic
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 
 RPM = pi / 30.0
@@ -54,7 +54,7 @@ def rows() -> Iterator[Row]:
             yield Row(f"{name}, spin in space", "rpm", 27937.5, inertial, DIGITS)
 
 
-CASE = KnownAnswer(
+CASE: KnownAnswer = KnownAnswer(
     name="kinematics",
     title="Epicyclic speeds",
     source="T. A. Harris, Rolling Bearing Analysis, bearing speeds; the table from an independent "

@@ -48,7 +48,7 @@ def _axis(y: float | np.ndarray, z: float | np.ndarray) -> np.ndarray:
     return axis / np.linalg.norm(axis, axis=1, keepdims=True)
 
 
-CASE = KnownAnswer(
+CASE: KnownAnswer = KnownAnswer(
     name="laser_inversion",
     title="A cage's centre from five lasers",
     source="Measurement and Dynamic Analysis of the Centroid Trajectories of Angular-Contact Ball "

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from math import log, pi, sqrt
+from typing import Any
 
-from flexcage.geometry.hertz import PointContact
-from flexcage.verification.inside import ball_bearing
+from flexcage.verification.bearings import preset
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 
 # preset and race: axis ratio, E, F, delta*, K [N/mm^1.5]; semi-axes [mm], pressure [MPa] at 100 N
@@ -32,13 +32,13 @@ DIGITS = Tolerance(5.1e-6, "printed to 1e-5", absolute=True)
 TENTHS = Tolerance(0.05, "printed to a tenth of a percent", absolute=True)
 
 
-def approach_factor(contact: PointContact) -> float:
+def approach_factor(contact: Any) -> float:
     """Harris's delta*: K = 2 sqrt(2)/3 E' (sum of curvatures)^(-1/2) delta*^(-3/2)."""
     stiff = sqrt(8.0 * contact.radius) / 3.0 * contact.modulus
     return float((stiff / contact.stiffness) ** (2.0 / 3.0))
 
 
-def fitted(contact: PointContact) -> dict[str, float]:
+def fitted(contact: Any) -> dict[str, float]:
     """Axis ratio and K by the approximate formulas of Hamrock and Brewe."""
     radii, q = contact.transverse / contact.rolling, 0.5 * pi - 1.0
     ratio, second, first = radii ** (2.0 / pi), 1.0 + q / radii, 0.5 * pi + q * log(radii)
@@ -48,7 +48,7 @@ def fitted(contact: PointContact) -> dict[str, float]:
 
 def rows() -> Iterator[Row]:
     for (name, race), expected in TABLE.items():
-        bearing = ball_bearing(name)
+        bearing = preset(name)
         where = f"{name}, {('inner', 'outer')[race]} race"
         contact = bearing.contacts[race]
         ratio, second, first, factor, stiffness, long, short, pressure = expected
@@ -63,14 +63,14 @@ def rows() -> Iterator[Row]:
         found = 1e-6 * float(contact.pressure(100.0))
         yield Row(f"{where}: pressure", "MPa", pressure, found, PRINTED)
     for name, race, what, error in FITTED:
-        contact = ball_bearing(name).contacts[race]
+        contact = preset(name).contacts[race]
         exact = {"axis ratio": contact.ratio, "K": contact.stiffness}[what]
         found = 100.0 * (fitted(contact)[what] / exact - 1.0)
         where = f"{name}, {('inner', 'outer')[race]} race"
         yield Row(f"{where}: error of the fitted {what}", "%", error, found, TENTHS)
 
 
-CASE = KnownAnswer(
+CASE: KnownAnswer = KnownAnswer(
     name="point_contact",
     title="Elliptical contact of a ball and a race",
     source="H. Hertz (1881) as in K. L. Johnson, Contact Mechanics (1985), 4.2, and B. J. "

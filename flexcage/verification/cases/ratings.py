@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from flexcage.case.presets import load_preset, preset_names
-from flexcage.verification.inside import roller_bearing
+import flexcage
+from flexcage.verification.bearings import preset
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 
 # ISO 281:2007, factor f_c of radial roller bearings against Dwe cos(alpha)/Dpw
@@ -21,7 +21,7 @@ CATALOGUE = Tolerance(0.01, "makers round ratings to two or three digits")
 
 def geometry_factor(gamma: float) -> float:
     """f_c [N and mm] at Dw/Dpw, from the rating b_m f_c Lwe^7/9 Z^3/4 Dw^29/27 of a bearing."""
-    bearing = roller_bearing("N1013")
+    bearing = preset("N1013")
     length, diameter = 1e3 * bearing.effective_length, 1e3 * bearing.roller_diameter
     size = length ** (7.0 / 9.0) * bearing.roller_count**0.75 * diameter ** (29.0 / 27.0)
     pitch, roller = bearing.roller_diameter / gamma, bearing.roller_diameter
@@ -36,12 +36,12 @@ def rows() -> Iterator[Row]:
         found = geometry_factor(gamma)
         yield Row(f"f_c at Dwe/Dpw = {gamma:.2f}", "", expected, found, LAST_DIGIT)
     yield Row("f_c of the N1013", "", 83.8, geometry_factor(8.0 / 82.5), LAST_DIGIT)
-    for name in preset_names():
-        for rating, stated, found in load_preset(name).ratings():
+    for name in flexcage.preset_names():
+        for rating, stated, found in flexcage.load_preset(name).ratings():
             yield Row(f"{name}, {rating}", "kN", stated / 1e3, found / 1e3, CATALOGUE)
 
 
-CASE = KnownAnswer(
+CASE: KnownAnswer = KnownAnswer(
     name="ratings",
     title="Static and dynamic load ratings",
     source="ISO 76:2006; ISO 281:2007, table of f_c; makers' catalogues (N1013: 51.0 and 41.0 kN)",

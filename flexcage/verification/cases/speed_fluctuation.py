@@ -7,11 +7,10 @@ from math import radians
 
 import numpy as np
 
-from flexcage.geometry.kinematics import epicyclic
-from flexcage.simulate import simulate
-from flexcage.verification.ball_bearings import RPM, preset
-from flexcage.verification.c7010 import c7010
+from flexcage import epicyclic
+from flexcage.verification.bearings import RPM, preset
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
+from flexcage.verification.runs import c7010, run_of
 
 SPEED = 2000.0  # rpm
 # amplitude over the mean speed, waves a turn: largest acceleration of the ring [rad/s^2], force
@@ -39,7 +38,7 @@ def acceleration(amplitude: float, waves: int) -> float:
         "drive.wave_amplitude": f"{amplitude * SPEED!r} rpm",
         "drive.wave_period": f"{60.0 / (waves * SPEED)!r} s",
     }
-    ds = simulate(c7010(SHORT_RUN, wave)).dataset
+    ds = run_of(c7010(SHORT_RUN, wave)).dataset
     return float(np.max(np.diff(ds["inner_speed"].values) / np.diff(ds["time"].values)))
 
 
@@ -66,7 +65,7 @@ def rows() -> Iterator[Row]:
             yield Row(f"{where}: force on a ball's orbit", "mN", push, found, ROUNDED)
 
 
-CASE = KnownAnswer(
+CASE: KnownAnswer = KnownAnswer(
     name="speed_fluctuation",
     title="A ring whose speed fluctuates",
     source="closed form, A W^2 N for a speed W (1 + A sin(N W t)), and m r gamma' times that for a "

@@ -9,12 +9,17 @@ from typing import Any
 
 import numpy as np
 
-from flexcage.system.start import find_start
-from flexcage.verification.inside import rollers_of
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
-from flexcage.verification.n1013 import bearing_of, n1013
+from flexcage.verification.runs import n1013, run_of
 
-STILL = {"drive.speed": "0 rpm", "load.gravity": "0 m/s^2", "cage.model": "rigid"}
+STILL = {
+    "drive.speed": "0 rpm",
+    "load.gravity": "0 m/s^2",
+    "cage.model": "rigid",
+    "solver.duration": "10 us",  # the first sample alone counts
+    "output.rate": "200 kHz",
+    "output.vibration_rate": "200 kHz",
+}
 STRAIGHT = {"bearing.profile.kind": "straight"}
 PALMGREN = 8.06e4 / (35948.0 * 2.0 ** (10.0 / 9.0))  # of the ISO stiffness of one contact
 BETWEEN = f"{degrees(pi / 22)} deg"  # the load half a pitch beside a roller
@@ -57,18 +62,15 @@ class Sharing:
 
 
 def sharing(clearance: float, *tables: Mapping[str, object]) -> Sharing:
-    """Equilibrium of the start at a radial clearance [um] under 1000 N."""
+    """Start of a run at a radial clearance [um] under 1000 N, in equilibrium."""
     case = n1013(STILL, {"bearing.radial_clearance": f"{clearance} um"}, *tables)
-    bearing = bearing_of(case)
-    start = find_start(bearing, limit_force=2e4)
-    bearing.residual(0.0, start.y, start.yd, 2)
-    race = bearing.data.work.report.race[:, :, 0]
-    q = bearing.layout.q(start.y)
-    path = rollers_of(case).outer_race_radius - 0.5 * case.bearing.element_diameter
-    return Sharing(
-        1e6 * float(np.hypot(*q["inner"][1:3])), race[:, 0].copy(), race[:, 1].copy(),
-        1e6 * (q["elements"][:, 1] - path),
-    )  # fmt: skip
+    start = run_of(case).dataset.isel(time=0)
+    rollers: Any = case.bearing
+    path = rollers.outer_race_radius - 0.5 * rollers.element_diameter
+    inner, outer = start["race_force"].values.T
+    depth = start["element_position"].sel(cyl="r").values - path
+    return Sharing(1e6 * float(np.hypot(*start["inner_position"].values[1:])), inner, outer,
+                   1e6 * depth)  # fmt: skip
 
 
 def straight_rows() -> Iterator[Row]:
@@ -129,7 +131,7 @@ def rows() -> Iterator[Row]:
     yield from turning_rows()
 
 
-CASE = KnownAnswer(
+CASE: KnownAnswer = KnownAnswer(
     name="static_load",
     title="Load distribution of an N1013 under 1000 N",
     source="independent program after H. Sjoevall: sum over rollers with the stiffness of ISO/TS "

@@ -1,4 +1,11 @@
-"""Beams of solid elements: bent, vibrating, and spun across their length."""
+"""Beams of solid elements: bent, vibrating, and spun across their length.
+
+Quadratic tetrahedra in bending: a cantilever's deflection, a free beam's first frequency, and what
+spin across its length adds to the square of that frequency.
+
+Source: beam theory of Bernoulli and of S. P. Timoshenko; R. V. Southwell and F. Gough, ARC R&M 766
+(1921): stiffening of a spinning beam by its tension, integrated here.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +13,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
+from known_rows import check
 from scipy.integrate import quad
+from solids import box
 
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.linear import linear_solver
@@ -14,8 +23,7 @@ from flexcage.fem.modal import free_modes
 from flexcage.fem.model import assemble
 from flexcage.geometry.materials import Material
 from flexcage.modes.stiffening import spin_stiffness
-from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
-from flexcage.verification.solids import box
+from flexcage.verification import Row, Tolerance
 
 # no Poisson's ratio: a clamp that stops the contraction stiffens a beam
 E, RHO = 207e9, 7800.0
@@ -57,8 +65,7 @@ def southwell() -> float:
     return pulled / quad(lambda y: shape(y) ** 2, -half, half)[0]
 
 
-def rows() -> Iterator[Row]:
-    yield cantilever_row()
+def free_rows() -> Iterator[Row]:
     mesh = box((LENGTH, SIDE, SIDE), (32, 1, 1))
     along_y = (mesh.points - [0.5 * LENGTH, 0.5 * SIDE, 0.5 * SIDE])[:, [1, 0, 2]] * [1, -1, 1]
     model = assemble(replace(mesh, points=along_y), STEEL)
@@ -75,12 +82,9 @@ def rows() -> Iterator[Row]:
     yield Row("Southwell coefficient of flapping", "", southwell(), found, TENSION)
 
 
-CASE = KnownAnswer(
-    name="beam",
-    title="Beams of solid elements",
-    source="beam theory of Bernoulli and of S. P. Timoshenko; R. V. Southwell and F. Gough, ARC "
-    "R&M 766 (1921): stiffening of a spinning beam by its tension, integrated here",
-    checks="Quadratic tetrahedra in bending: a cantilever's deflection, a free beam's first "
-    "frequency, and what spin across its length adds to the square of that frequency.",
-    rows=rows,
-)
+def test_a_cantilever():
+    check([cantilever_row()])
+
+
+def test_a_free_beam_and_its_stiffening_by_spin():
+    check(free_rows())

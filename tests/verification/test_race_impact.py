@@ -1,17 +1,24 @@
-"""Rollers that fly against the outer race of a bearing and come back."""
+"""Rollers that fly against the outer race of a bearing and come back.
+
+All rollers of an N1013 at rest fly outwards at 0.5 m/s between races of 55 um clearance: the whole
+bearing's kernels and solver give the impact of one mass on one law.
+
+Source: closed form and numbers as in `impact`; the restitution asked for.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
 import numpy as np
+from known_rows import check
+from law_values import IMPACT_SPEED, IMPACTS
+from marching import march
+from n1013_states import bearing_of, state_at_rest
 
-from flexcage.verification.cases.impact import TABLE
-from flexcage.verification.inside import rollers_of
-from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
-from flexcage.verification.n1013 import LOSSLESS, bearing_of, march, n1013, state_at_rest
+from flexcage.verification import Row, Tolerance
+from flexcage.verification.runs import LOSSLESS, n1013
 
-SPEED = 0.5  # m/s, outwards
 FLIGHT = {
     "cage.model": "rigid",
     "bearing.profile.kind": "straight",
@@ -33,12 +40,12 @@ def flight(*tables: Mapping[str, object]) -> tuple[np.ndarray, np.ndarray, np.nd
     case = n1013(LOSSLESS, FLIGHT, *tables)
     bearing = bearing_of(case)
     y, yd = state_at_rest(bearing)
-    bearing.layout.u(y)["elements"][:, 1] = bearing.layout.q(yd)["elements"][:, 1] = SPEED
+    bearing.layout.u(y)["elements"][:, 1] = bearing.layout.q(yd)["elements"][:, 1] = IMPACT_SPEED
     ds = march(case, bearing, y, yd).isel(element=0)
     return (
         ds["race_force"].sel(race="outer").values,
         ds["element_position"].sel(cyl="r").values
-        - (rollers_of(case).outer_race_radius - 0.5 * case.bearing.element_diameter),
+        - (case.bearing.outer_race_radius - 0.5 * case.bearing.element_diameter),
         ds["element_velocity"].sel(cyl="r").values,
         1.0 / case.output.rate,
     )
@@ -46,27 +53,20 @@ def flight(*tables: Mapping[str, object]) -> tuple[np.ndarray, np.ndarray, np.nd
 
 def rows() -> Iterator[Row]:
     force, depth, speed, sample = flight()
-    _, _, _, deepest, time, largest = TABLE["N1013 roller, line contact"]
+    _, _, _, deepest, time, largest = IMPACTS["N1013 roller, line contact"]
     yield Row("elastic: depth", "um", deepest, 1e6 * depth.max(), STEPS)
     yield Row("elastic: largest force", "N", largest, float(force.max()), STEPS)
     touched = 1e6 * sample * np.count_nonzero(force)
     yield Row("elastic: time in contact", "us", time, touched, SAMPLES)
-    yield Row("elastic: speed back", "m/s", SPEED, -float(speed[-1]), STEPS)
+    yield Row("elastic: speed back", "m/s", IMPACT_SPEED, -float(speed[-1]), STEPS)
     for e in (0.9, 0.5):
         law = {
             "contacts.race.normal.law": "restitution",
             "contacts.race.normal.restitution": e,
         }
         speed = flight(law)[2]
-        yield Row(f"restitution {e}: speed back", "m/s", e * SPEED, -float(speed[-1]), STEPS)
+        yield Row(f"restitution {e}: speed back", "m/s", e * IMPACT_SPEED, -float(speed[-1]), STEPS)
 
 
-CASE = KnownAnswer(
-    name="race_impact",
-    title="Rollers that strike the outer race",
-    source="closed form and numbers as in `impact`; the restitution asked for",
-    checks="All rollers of an N1013 at rest fly outwards at 0.5 m/s between races of 55 um "
-    "clearance: the whole bearing's kernels and solver give the impact of one mass on one law.",
-    rows=rows,
-    quick=False,
-)
+def test_rollers_strike_the_outer_race():
+    check(rows())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,9 +20,9 @@ from flexcage.bodies.floating_frame import (
 )
 from flexcage.core.errors import RunFailed
 from flexcage.core.rotation import matrix_from_quaternion, quaternion_rate
-from flexcage.verification.data_files import stored_arrays
 
 ZERO = (0.0, 0.0, 0.0)
+BODY = Path(__file__).parent / "bodies" / "data" / "free_body.npz"
 
 
 class Tumbler:
@@ -110,8 +111,9 @@ class ProjectedMesh(Tumbler):
 
 
 def free_body() -> tuple[dict[str, np.ndarray], sparse.csr_matrix]:
-    """The body of ``data/README.md``: its arrays, and its scalar mass matrix (405, 405)."""
-    d = stored_arrays("free_body.npz")
+    """The body of ``bodies/data/README.md``: its arrays, and its scalar mass matrix (405, 405)."""
+    with np.load(BODY) as stored:
+        d = dict(stored)
     upper = sparse.coo_matrix((d["mass_value"], (d["mass_row"], d["mass_col"])), shape=(405, 405))
     return d, sparse.csr_matrix(upper + sparse.triu(upper, 1).T)
 

@@ -1,14 +1,24 @@
-"""The short-bearing film of a cage land."""
+"""The short-bearing film of a cage land.
+
+Radial and tangential force at four eccentricities (20 mPa s, land 3 mm wide, 0.1 mm of clearance, 5
+m/s), and wedge, squeeze and drag against quadrature of the pressure. The squeeze is the full
+film's; a film that bears no tension would give the printed share of it.
+
+Source: short bearing of F. W. Ocvirk, NACA TN 2808 (1952), half-Sommerfeld, as used for cage lands
+by Gupta and by Ghaisas; table from an independent program; pressure integrated here.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 import numpy as np
+import pytest
+from known_rows import check
 from scipy.integrate import quad
 
 from flexcage.contacts import laws
-from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
+from flexcage.verification import Row, Tolerance
 
 ETA, LENGTH, CLEARANCE, RADIUS = 0.02, 3e-3, 1e-4, 0.05
 SURFACE = 5.0  # m/s, sum of both surfaces' speeds
@@ -48,13 +58,10 @@ def load_per_angle(angle: float, eps: float, wedge: float, squeeze: float) -> fl
     return -(LENGTH**3) / (12.0 * h**3) * push * RADIUS
 
 
-def rows() -> Iterator[Row]:
+def table_rows() -> Iterator[Row]:
     for eps, forces in TABLE.items():
-        found = film(eps)
-        for name, expected, value in zip(("radial", "tangential"), forces, found):
+        for name, expected, value in zip(("radial", "tangential"), forces, film(eps)):
             yield Row(f"{name} force at {eps} C", "N", expected, value, PRINTED)
-    for eps in TABLE:
-        yield from quadrature_rows(eps)
 
 
 def quadrature_rows(eps: float) -> Iterator[Row]:
@@ -81,13 +88,28 @@ def quadrature_rows(eps: float) -> Iterator[Row]:
     yield Row(f"moment, integrated, at {eps} C", "N mm", 1e3 * moment, 1e3 * found[2], QUADRATURE)
 
 
-CASE = KnownAnswer(
-    name="land_film",
-    title="Film between cage land and ring",
-    source="short bearing of F. W. Ocvirk, NACA TN 2808 (1952), half-Sommerfeld, as used for cage "
-    "lands by Gupta and by Ghaisas; table from an independent program; pressure integrated here",
-    checks="Radial and tangential force at four eccentricities (20 mPa s, land 3 mm wide, 0.1 mm "
-    "of clearance, 5 m/s), and wedge, squeeze and drag against quadrature of the pressure. The "
-    "squeeze is the full film's; a film that bears no tension would give the printed share of it.",
-    rows=rows,
-)
+def test_forces_of_the_table():
+    check(table_rows())
+
+
+@pytest.mark.parametrize("eps", TABLE)
+def test_wedge_squeeze_and_drag_by_quadrature(eps):
+    check(quadrature_rows(eps))
+
+
+def test_land_film_whirling_at_half_speed_carries_nothing():
+    eps, whirl = 0.4, 50.0  # half of the sum of speeds
+    out = film(eps, rate=(0.0, whirl * eps * 1e-4))
+    np.testing.assert_allclose(out[:2], 0.0, atol=1e-12)
+    faster = film(eps, rate=(0.0, 2 * whirl * eps * 1e-4))
+    assert faster[1] == pytest.approx(-film(eps)[1])  # damps a whirl above half speed
+    assert faster[0] == pytest.approx(film(eps)[0])
+
+
+def test_land_film_turns_with_its_eccentricity():
+    still = film(0.5, rate=(0.01, -0.02))
+    c, s = np.cos(0.7), np.sin(0.7)
+    turned = film(0.5, direction=0.7, rate=(0.01 * c + 0.02 * s, 0.01 * s - 0.02 * c))
+    np.testing.assert_allclose(
+        turned, [c * still[0] - s * still[1], s * still[0] + c * still[1], still[2]], rtol=1e-12
+    )

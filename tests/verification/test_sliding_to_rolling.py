@@ -1,18 +1,29 @@
-"""Rollers that slide along the outer race without spin until they roll."""
+"""Rollers that slide along the outer race without spin until they roll.
+
+The friction law on a plane (1 m/s, mu 0.1). In a bearing all 22 rollers start at the epicyclic
+speed of 6000 rpm without spin and without load, friction 0.1 on the outer race: speed and spin on
+the way, at the end, and the energy lost.
+
+Source: closed form on a plane: sliding ends at v0/(3 mu g), 2/3 v0 (cylinder), 2 v0/(7 mu g), 5/7
+v0 (sphere). Along a race of radius r, with N = m v^2/r: v = v0/(1 + mu v0 t/r), down to 2/3 v0.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 import numpy as np
+from known_rows import check
+from law_values import coefficient
+from marching import march
+from n1013_states import bearing_of
 from scipy.integrate import solve_ivp
 
 from flexcage.contacts import laws
 from flexcage.contacts.spec import FrictionLaw
 from flexcage.system.start import find_start
-from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
-from flexcage.verification.law_values import coefficient
-from flexcage.verification.n1013 import FRICTIONLESS, NO_OIL, bearing_of, march, n1013
+from flexcage.verification import Row, Tolerance
+from flexcage.verification.runs import FRICTIONLESS, NO_OIL, n1013
 
 MU, GRAVITY = 0.1, 9.80665
 # the cage weighs a millionth of the rollers, so that it neither drives nor brakes them
@@ -68,11 +79,6 @@ def plane_rows() -> Iterator[Row]:
         yield Row(f"{body} on a plane, speed then", "m/s", speed, found[1], LAW)
 
 
-def rows() -> Iterator[Row]:
-    yield from plane_rows()
-    yield from race_rows()
-
-
 def race_rows() -> Iterator[Row]:
     case = n1013(ALONE).replace("cage.material.density", LIGHT)
     bearing = bearing_of(case)
@@ -101,15 +107,9 @@ def race_rows() -> Iterator[Row]:
     yield Row("energy lost to friction", "J", mass * first**2 / 6.0, lost, CREEP)
 
 
-CASE = KnownAnswer(
-    name="sliding_to_rolling",
-    title="A cylinder that slides until it rolls",
-    source="closed form on a plane: sliding ends at v0/(3 mu g), 2/3 v0 (cylinder), 2 v0/(7 mu "
-    "g), 5/7 v0 (sphere). Along a race of radius r, with N = m v^2/r: v = v0/(1 + mu v0 t/r), down "
-    "to 2/3 v0",
-    checks="The friction law on a plane (1 m/s, mu 0.1). In a bearing all 22 rollers start at the "
-    "epicyclic speed of 6000 rpm without spin and without load, friction 0.1 on the outer race: "
-    "speed and spin on the way, at the end, and the energy lost.",
-    rows=rows,
-    quick=False,
-)
+def test_bodies_on_a_plane():
+    check(plane_rows())
+
+
+def test_rollers_on_a_race():
+    check(race_rows())

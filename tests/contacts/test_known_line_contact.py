@@ -1,15 +1,24 @@
-"""Stiffness of a roller on a race, on a cage wall, and of its flat end."""
+"""Stiffness of a roller on a race, on a cage wall, and of its flat end.
+
+Stiffness and approach on a race by the standard, and by Palmgren; on a cage wall against quadrature
+of the stress under a Hertzian pressure; of a flat end as a rigid punch on a half-space.
+
+Source: ISO/TS 16281:2008 (c_L = 35948 Lwe^(8/9)); A. Palmgren, d = 3.84e-5 Q^0.9/L^0.8 (N, mm),
+which a stiffness factor stands for; numbers from an independent program; K. L. Johnson, Contact
+Mechanics (1985), 3.4, 5.6; Flamant's and Boussinesq's answers, integrated here.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
 import numpy as np
+from known_rows import check
 from scipy.integrate import dblquad, quad
 
 from flexcage.contacts import laws
 from flexcage.contacts.spec import NormalLaw
-from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
+from flexcage.verification import Row, Tolerance
 
 STEEL, BRASS, RIGID = (206e9, 0.3), (105e9, 0.34), (1e16, 0.3)
 LENGTH, RADIUS, DEPTH = 7.3e-3, 4e-3, 1.5e-3
@@ -110,14 +119,5 @@ def rows() -> Iterator[Row]:
     yield Row("flat end of 2 mm radius on steel", "N/um", expected, found, PUNCH)
 
 
-CASE = KnownAnswer(
-    name="line_contact",
-    title="Line contact of a roller",
-    source="ISO/TS 16281:2008 (c_L = 35948 Lwe^(8/9)); A. Palmgren, d = 3.84e-5 Q^0.9/L^0.8 (N, "
-    "mm), which a stiffness factor stands for; numbers from an independent program; K. L. Johnson, "
-    "Contact Mechanics (1985), 3.4, 5.6; Flamant's and Boussinesq's answers, integrated here",
-    checks="Stiffness and approach on a race by the standard, and by Palmgren; on a cage wall "
-    "against quadrature of the stress under a Hertzian pressure; of a flat end as a rigid punch on "
-    "a half-space.",
-    rows=rows,
-)
+def test_line_contact():
+    check(rows())

@@ -1,4 +1,14 @@
-"""Balls that strike the outer groove, and balls that slide along it until they roll."""
+"""Balls that strike the outer groove, and balls that slide along it until they roll.
+
+All balls of a 7010C fly at 0.5 m/s against the bottom of the outer groove and come back. All balls
+orbit at 200 rad/s without spin and without load, friction 0.1 on the outer race: speed and spin on
+the way and at the end. Balls pressed on the inner race by 255 N turn as if they rolled at 13.37
+m/s: what the oil of 20 mPa s does to them.
+
+Source: closed form: depth (5 m v^2/(4 K))^(2/5) of an elastic Hertz impact; along a race of radius
+r, with N = m v^2/r, a sphere's v = v0/(1 + mu v0 t/r), down to 5/7 v0; rolling resistance of L.
+Houpert as in `rolling_resistance`, which takes 2 F u from ball and race.
+"""
 
 from __future__ import annotations
 
@@ -6,21 +16,16 @@ from collections.abc import Iterator
 from math import cos, radians
 
 import numpy as np
+from c7010_states import balls_on_outer, bearing_of
+from known_rows import check
+from marching import march
 
 from flexcage.compiling import build_bearing
 from flexcage.core.errors import RunFailed
 from flexcage.stages import cage_mesh
 from flexcage.system.data import POWERS
-from flexcage.verification.c7010 import (
-    ELASTIC,
-    NO_OIL,
-    SMOOTH,
-    balls_on_outer,
-    bearing_of,
-    c7010,
-    march,
-)
-from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
+from flexcage.verification import Row, Tolerance
+from flexcage.verification.runs import ELASTIC, NO_OIL, SMOOTH, c7010
 
 SPEED, GAP = 0.5, 2e-6  # m/s outwards, m
 FLIGHT = {
@@ -126,22 +131,13 @@ def resistance_rows() -> Iterator[Row]:
     yield Row("power that a ball and its race lose", "W", 2.0 * FORCE * ROLLING, lost, PRINTED)
 
 
-def rows() -> Iterator[Row]:
-    yield from impact_rows()
-    yield from sliding_rows()
-    yield from resistance_rows()
+def test_impacts():
+    check(impact_rows())
 
 
-CASE = KnownAnswer(
-    name="ball_race_run",
-    title="Balls that strike a race, and balls that slide until they roll",
-    source="closed form: depth (5 m v^2/(4 K))^(2/5) of an elastic Hertz impact; along a race of "
-    "radius r, with N = m v^2/r, a sphere's v = v0/(1 + mu v0 t/r), down to 5/7 v0; rolling "
-    "resistance of L. Houpert as in `rolling_resistance`, which takes 2 F u from ball and race",
-    checks="All balls of a 7010C fly at 0.5 m/s against the bottom of the outer groove and come "
-    "back. All balls orbit at 200 rad/s without spin and without load, friction 0.1 on the outer "
-    "race: speed and spin on the way and at the end. Balls pressed on the inner race by 255 N turn "
-    "as if they rolled at 13.37 m/s: what the oil of 20 mPa s does to them.",
-    rows=rows,
-    quick=False,
-)
+def test_sliding_until_they_roll():
+    check(sliding_rows())
+
+
+def test_rolling_resistance():
+    check(resistance_rows())

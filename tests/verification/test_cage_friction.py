@@ -1,4 +1,16 @@
-"""Friction in pockets that throws a cage into whirl: from which coefficient on, and how fast."""
+"""Friction in pockets that throws a cage into whirl: from which coefficient on, and how fast.
+
+Eighteen preloaded balls roll and push their pockets forwards, whose walls they rub radially as they
+spin. The compiled equations, linearised about this motion in the frame that goes round with it,
+give the coefficient of friction from which a whirl of the cage grows (forwards, as the balls go),
+its speed, and its growth below and above; with steel balls runs of a cage that is pushed a little
+are looked at as well.
+
+Source: own derivation, for balls on dampers c against the races, walls of stiffness k and a cage of
+mass m: unstable from mu = sqrt(2 m k/Z)/c on, whirling at sqrt(Z k/(2 m)), where balls have no
+mass; their mass is one term more; searched: eigenvalues of an independent program. Published
+criteria depend on the same quantities (J. Tribol. 140 (2018) 011101).
+"""
 
 from __future__ import annotations
 
@@ -8,6 +20,9 @@ from functools import cached_property
 from math import pi, sqrt
 
 import numpy as np
+import pytest
+from known_rows import check
+from marching import march
 from scipy.linalg import eig
 from scipy.optimize import brentq, fsolve
 
@@ -17,10 +32,9 @@ from flexcage.contacts import laws
 from flexcage.contacts.spec import FrictionLaw
 from flexcage.stages import cage_mesh
 from flexcage.system.problem import Bearing
-from flexcage.verification.ball_bearings import deep_groove
-from flexcage.verification.c7010 import ELASTIC, NO_OIL, RPM, march
-from flexcage.verification.deep_groove import case_of
-from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
+from flexcage.verification import Row, Tolerance
+from flexcage.verification.bearings import RPM, deep_groove
+from flexcage.verification.runs import ELASTIC, NO_OIL, in_a_cage
 
 BALLS, MASS, STIFFNESS = 18, 0.010, 1e6  # number; of the cage, kg; of a pocket's contact, N/m
 SPEED, PRELOAD, FULL_SLIP = 20.0, 200.0, 5.0  # rad/s of the ring, N on a ball, m/s: slow and tight
@@ -56,7 +70,7 @@ def bearing_with(resistance: float, density: float) -> tuple[Case, Bearing]:
     depth = sum((PRELOAD / c.stiffness) ** (2.0 / 3.0) for c in bearing.contacts)
     bearing = replace(bearing, radial_clearance=-2.0 * depth)
     coefficient = 0.5 * resistance * FULL_SLIP / (1.5 * PRELOAD)  # each race gives half
-    case = case_of(bearing, NO_OIL, ELASTIC, RUN, {
+    case = in_a_cage(bearing, NO_OIL, ELASTIC, RUN, {
         "contacts.race.friction.law": "step_coulomb",
         "contacts.race.friction.static": coefficient,
         "contacts.race.friction.dynamic": coefficient,
@@ -210,46 +224,33 @@ def growth_in_a_run(case: Case, bearing: Bearing, mu: float, near: float) -> flo
     return float(np.polyfit(time[: len(forward)][late], np.log(forward[late]), 1)[0])
 
 
-def rows() -> Iterator[Row]:
-    for resistance, density in CASES:
-        case, bearing = bearing_with(resistance, density)
-        heavy = density == STEEL
-        ball = float(bearing.data.model.bodies.element[0]) if heavy else 0.0
-        where = f"{'steel' if heavy else 'weightless'} balls, {resistance:g} N s/m"
-        expected, speed = threshold(resistance, ball)
-        found = brentq(
-            lambda mu, b=bearing: PushingBalls(b, mu).whirl.real, 0.5 * expected, 2.0 * expected,
-            xtol=1e-7,
-        )  # fmt: skip
-        yield Row(f"{where}: critical friction", "", expected, found, NEAR)
-        if not heavy:
-            formula = sqrt(2.0 * MASS * STIFFNESS / BALLS) / resistance
-            yield Row(f"{where}: critical friction, formula", "", formula, found, NEAR)
-            searched = PRINTED[resistance]
-            yield Row(f"{where}: critical friction, searched", "", searched, found, GRID)
-        whirl = PushingBalls(bearing, found).whirl
-        yield Row(f"{where}: whirl speed", "rad/s", speed, whirl.imag, NEAR)
-        for share in (0.5, 1.5):
-            mu = share * expected
-            due, rate = growth(resistance, ball, mu), PushingBalls(bearing, mu).whirl.real
-            yield Row(f"{where}: growth at {share:g} of it", "1/s", due, rate, EXCESS)
-            if heavy:
-                rate = growth_in_a_run(case, bearing, mu, speed)
-                yield Row(f"{where}: growth at {share:g} of it, in a run", "1/s", due, rate, EXCESS)
+def rows(resistance: float, density: float) -> Iterator[Row]:
+    case, bearing = bearing_with(resistance, density)
+    heavy = density == STEEL
+    ball = float(bearing.data.model.bodies.element[0]) if heavy else 0.0
+    where = f"{'steel' if heavy else 'weightless'} balls, {resistance:g} N s/m"
+    expected, speed = threshold(resistance, ball)
+    found = brentq(
+        lambda mu: PushingBalls(bearing, mu).whirl.real, 0.5 * expected, 2.0 * expected,
+        xtol=1e-7,
+    )  # fmt: skip
+    yield Row(f"{where}: critical friction", "", expected, found, NEAR)
+    if not heavy:
+        formula = sqrt(2.0 * MASS * STIFFNESS / BALLS) / resistance
+        yield Row(f"{where}: critical friction, formula", "", formula, found, NEAR)
+        searched = PRINTED[resistance]
+        yield Row(f"{where}: critical friction, searched", "", searched, found, GRID)
+    whirl = PushingBalls(bearing, found).whirl
+    yield Row(f"{where}: whirl speed", "rad/s", speed, whirl.imag, NEAR)
+    for share in (0.5, 1.5):
+        mu = share * expected
+        due, rate = growth(resistance, ball, mu), PushingBalls(bearing, mu).whirl.real
+        yield Row(f"{where}: growth at {share:g} of it", "1/s", due, rate, EXCESS)
+        if heavy:
+            rate = growth_in_a_run(case, bearing, mu, speed)
+            yield Row(f"{where}: growth at {share:g} of it, in a run", "1/s", due, rate, EXCESS)
 
 
-CASE = KnownAnswer(
-    name="cage_friction",
-    title="Friction in pockets that makes a cage whirl",
-    source="own derivation, for balls on dampers c against the races, walls of stiffness k and a "
-    "cage of mass m: unstable from mu = sqrt(2 m k/Z)/c on, whirling at sqrt(Z k/(2 m)), where "
-    "balls have no mass; their mass is one term more; searched: eigenvalues of an independent "
-    "program. Published criteria depend on the same quantities (J. Tribol. 140 (2018) 011101)",
-    checks="Eighteen preloaded balls roll and push their pockets forwards, whose walls they rub "
-    "radially as they spin. The compiled equations, linearised about this motion in the frame that "
-    "goes round with it, give the coefficient of friction from which a whirl of the cage grows "
-    "(forwards, as the balls go), its speed, and its growth below and above; with steel balls runs "
-    "of a cage that is pushed a little are looked at as well.",
-    rows=rows,
-    quick=False,
-)
+@pytest.mark.parametrize(("resistance", "density"), CASES)
+def test_friction_that_lets_a_cage_whirl(resistance, density):
+    check(rows(resistance, density))

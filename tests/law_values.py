@@ -13,6 +13,14 @@ from flexcage.contacts.laws import rolling_forces
 from flexcage.core.errors import RunFailed
 
 Law = Callable[..., None]
+IMPACT_SPEED = 0.5  # m/s of both
+# K [N/m^n], n, mass [kg]; depth [um], time [us], force [N]
+IMPACTS = {
+    "N1013 roller, line contact": (
+        454517.4944 * 1e3 ** (10.0 / 9.0), 10.0 / 9.0, 3.1567e-3, 1.916562, 11.84622, 434.6419,
+    ),
+    "7010C ball, Hertz": (8.69343e9, 1.5, 2.7173e-3, 6.250555, 36.79327, 135.8529),
+}  # fmt: skip
 
 
 def normal(

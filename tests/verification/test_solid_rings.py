@@ -1,4 +1,14 @@
-"""The same ring and others in solid elements: modes, stiffening by spin, growth and stress."""
+"""The same ring and others in solid elements: modes, stiffening by spin, growth and stress.
+
+Quadratic tetrahedra, free modes, geometric stiffness of the spinning body in the floating frame,
+and stress operators on the steel ring of ``test_spinning_ring.py`` (without Poisson's ratio where
+the closed form is a beam's), on side rings of cages of an N1013 and of 7010C, and on an annulus of
+the N1013's.
+
+Source: thin ring: closed forms as in ``test_spinning_ring.py``; R. D. Blevins, Formulas for Natural
+Frequency and Mode Shape (1979), rings out of plane; rotating thick ring in plane stress: S. P.
+Timoshenko and J. N. Goodier, Theory of Elasticity, section 32.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +16,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
+from known_rows import check
+from solids import ring
+from thin_ring import LINEAR, REST, RPM, STIFFENED, frequencies
 
 from flexcage.bodies.floating_frame import flexible_body
 from flexcage.fem.free import FreeBodySolver
@@ -15,15 +28,7 @@ from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.modes.ritz import centrifugal_load, centrifugal_mode
 from flexcage.modes.stiffening import spin_stiffness
 from flexcage.stress.operators import VertexStress
-from flexcage.verification.cases.spinning_ring import (
-    LINEAR,
-    REST,
-    RPM,
-    STIFFENED,
-    frequencies,
-)
-from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
-from flexcage.verification.solids import ring
+from flexcage.verification import Row, Tolerance
 
 STEEL = Material(name="ring steel", youngs_modulus=207e9, poisson_ratio=0.3, density=7800.0)
 BEAM = replace(STEEL, poisson_ratio=0.0)  # beam theory has no anticlastic bending
@@ -132,28 +137,25 @@ def centrifugal_rows(
         yield Row(f"{name}, hoop stress at {at} mm", "MPa", tension, value, FACETS)
 
 
-def rows() -> Iterator[Row]:
-    yield from vibration_rows()
-    yield from out_of_plane_rows()
-    steel = steel_ring(STEEL)
-    yield from centrifugal_rows("steel at 10000 rpm", steel, 10_000.0, STEEL_10000)
+def test_vibrations_and_split_frequencies():
+    check(vibration_rows())
+
+
+def test_rings_out_of_their_plane():
+    check(out_of_plane_rows())
+
+
+def test_growth_and_stress_of_a_steel_ring():
+    check(centrifugal_rows("steel at 10000 rpm", steel_ring(STEEL), 10_000.0, STEEL_10000))
+
+
+def test_growth_and_stress_of_an_annulus():
     thin_slice = assemble(ring(39e-3, 43.5e-3, 1e-3, (1, 3, 96))[0], BRASS)
-    yield from centrifugal_rows("N1013 cage annulus", thin_slice, 2709.09, CAGE_2709)
+    check(centrifugal_rows("N1013 cage annulus", thin_slice, 2709.09, CAGE_2709))
+
+
+def test_growth_of_a_side_ring():
     side = side_ring(OF_PA66, PA66)
     for rpm, expected in PA66_GROWTH.items():
         value = growth(side, spun(side, rpm), OF_PA66[0])
-        yield Row(f"side ring of 7010C, PA66, growth at {rpm:g} rpm", "um", expected, value, CAGE)
-
-
-CASE = KnownAnswer(
-    name="solid_ring",
-    title="Rings of solid elements, at rest and spinning",
-    source="thin ring: closed forms as in `spinning_ring`; R. D. Blevins, Formulas for Natural "
-    "Frequency and Mode Shape (1979), rings out of plane; rotating thick ring in plane stress: S. "
-    "P. Timoshenko and J. N. Goodier, Theory of Elasticity, section 32",
-    checks="Quadratic tetrahedra, free modes, geometric stiffness of the spinning body in the "
-    "floating frame, and stress operators on the steel ring of `spinning_ring` (without Poisson's "
-    "ratio where the closed form is a beam's), on side rings of cages of an N1013 and of 7010C, "
-    "and on an annulus of the N1013's.",
-    rows=rows,
-)
+        check([Row(f"growth at {rpm:g} rpm", "um", expected, value, CAGE)])

@@ -1,8 +1,8 @@
-"""A thin ring that spins, in the floating frame: split frequencies, their mean, and growth."""
+"""A thin steel ring in the floating frame, and its frequencies as it spins."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from scipy import sparse
@@ -14,7 +14,6 @@ from flexcage.bodies.floating_frame import (
     frame_work,
     inertia_terms,
 )
-from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
 
 E, RHO, R, H, B = 207e9, 7800.0, 50e-3, 2e-3, 10e-3  # steel; radial height H, axial width B
 RPM = 2.0 * np.pi / 60.0
@@ -29,19 +28,14 @@ LINEAR = {
     (6000, 2): (584.459, 424.400), (6000, 3): (1494.588, 1374.405),
     (20000, 2): (733.714, 200.239), (20000, 3): (1612.018, 1211.446),
 }  # fmt: skip
-GROWTH = {6000: 1.859491, 10_000: 5.165252, 20_000: 20.661008}  # um
-HOOP = {6000: 7.698291, 10_000: 21.384143, 20_000: 85.536571}  # MPa
-PRINTED = Tolerance(1e-6, "closed form, printed to eight digits; derivatives by differences")
-BREATHING = Tolerance(3e-6, "closed form, printed to six digits")
-STRETCH = Tolerance(1.5e-3, "the reference ring stretches a little, these shapes do not")
-SPLIT = Tolerance(1e-4, "2 x 2 n W/(n^2+1); one frequency less the other")
 
 
 def ring(orders: Sequence[int], *, count: int = 120, stiffened: bool = False) -> FlexibleBody:
     """A ring of points with inextensional shapes of the orders (pairs); order 0 is breathing.
 
     ``stiffened`` adds the geometric stiffness of the hoop tension rho A R^2 W^2 in closed form: it
-    has no elements. That of ``modes.stiffening`` enters the same equations in `solid_ring`.
+    has no elements. That of ``modes.stiffening`` enters the same equations in
+    ``verification/test_solid_rings.py``.
     """
     angle = 2.0 * np.pi * np.arange(count) / count
     er = np.stack([0 * angle, np.cos(angle), np.sin(angle)], axis=1)
@@ -84,46 +78,3 @@ def frequencies(body: FlexibleBody, speed: float) -> np.ndarray:
     inverse = np.linalg.inv(body.data.mff)
     values = eigvals(np.block([[zero * eye, np.eye(n)], [-inverse @ K, -inverse @ C]])).imag
     return np.sort(values[values > 1.0])[::-1] / (2.0 * np.pi)
-
-
-def growth(speed: float) -> float:
-    """Radial growth [m] under the centrifugal load of the undeformed ring."""
-    body = ring([0])
-    work = frame_work(1)
-    inertia_terms(body.data, np.array([speed, 0.0, 0.0]), np.zeros(1), np.zeros(1), work)
-    return float(-work.h[6] / body.data.kff[0, 0])
-
-
-def rows() -> Iterator[Row]:
-    for n, expected in REST.items():
-        yield Row(f"f_{n} at rest", "Hz", expected, frequencies(ring([n]), 0.0)[0], PRINTED)
-    breathing = frequencies(ring([0]), 0.0)[0]
-    yield Row("breathing at rest", "Hz", 16397.9, breathing, BREATHING)
-    for (rpm, n), pair in STIFFENED.items():
-        found = frequencies(ring([n], stiffened=True), rpm * RPM)
-        for which, expected, value in zip(("higher", "lower"), pair, found):
-            yield Row(f"{which} f_{n} at {rpm} rpm", "Hz", expected, value, PRINTED)
-    for (rpm, n), pair in LINEAR.items():
-        found = frequencies(ring([n]), rpm * RPM)
-        for which, expected, value in zip(("higher", "lower"), pair, found):
-            name = f"{which} f_{n} at {rpm} rpm without stiffening"
-            yield Row(name, "Hz", expected, value, STRETCH)
-    found = frequencies(ring([2], stiffened=True), 6000 * RPM)
-    yield Row("splitting of f_2 at 6000 rpm", "Hz", 160.0, found[0] - found[1], SPLIT)
-    for rpm, expected in GROWTH.items():
-        u = growth(rpm * RPM)
-        yield Row(f"growth at {rpm} rpm", "um", expected, 1e6 * u, PRINTED)
-        yield Row(f"hoop stress at {rpm} rpm", "MPa", HOOP[rpm], 1e-6 * E * u / R, PRINTED)
-
-
-CASE = KnownAnswer(
-    name="spinning_ring",
-    title="Thin ring that spins, in a floating frame",
-    source="rotating inextensional ring, w = sqrt(w_n^2 + W^2 n^2 (n^2-1)^2/(n^2+1)^2) +- 2 n "
-    "W/(n^2+1): M. Endo, K. Hatamura, M. Sakata and O. Taniguchi, J. Sound Vib. 92 (1984) 261; "
-    "without stiffening an extensible Galerkin ring of an independent program",
-    checks="Frequencies of a steel ring (R 50, 2 by 10 mm) as the cage's frame sees them. Coriolis "
-    "forces split each pair rightly with and without geometric stiffening; only with it is the "
-    "pair's mean right. Growth and hoop stress rho w^2 R^2 come from the breathing shape.",
-    rows=rows,
-)

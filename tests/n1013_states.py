@@ -1,46 +1,19 @@
-"""The N1013 of the chapter: cases on the coarse mesh, their stages, and runs from chosen states."""
+"""The N1013 of the chapter, ready to be integrated, and states that no case can ask for."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from functools import cache
-from typing import Any
 
 import numpy as np
 
-from flexcage.bearings import recording_of
-from flexcage.case import Case, load_case
+from flexcage.case import Case
 from flexcage.compiling import build_bearing
-from flexcage.integrate.integration import Integration
-from flexcage.integrate.recorded import new_store
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.reduction import CageReduction
 from flexcage.modes.spec import ModesSpec
 from flexcage.stages import cage_mesh, cage_reduction
-from flexcage.system.begun import Start
 from flexcage.system.problem import Bearing
-
-BASE = {
-    "bearing": {"preset": "N1013"},
-    "mesh": {"fineness": "coarse"},
-    "load": {"radial": "1000 N"},
-}
-FRICTIONLESS = {
-    f"contacts.{place}.friction.law": "none" for place in ("race", "pocket", "side", "rib", "land")
-}
-NO_OIL = {"lubricant.rolling_resistance": "none", "lubricant.oil_fraction": 0.0}
-LOSSLESS = {
-    **FRICTIONLESS,
-    **NO_OIL,
-    **{f"contacts.{p}.normal.law": "elastic" for p in ("race", "pocket", "side", "rib", "land")},
-    "modes.damping": 0.0,
-    "load.gravity": "0 m/s^2",
-}
-
-
-def n1013(*tables: Mapping[str, object], **sections: object) -> Case:
-    """The preset with a sound cage; ``tables`` map dotted paths to text, later ones win."""
-    return load_case({**BASE, **sections}, overrides={k: v for t in tables for k, v in t.items()})
+from flexcage.verification.runs import n1013
 
 
 def cage_of(case: Case) -> tuple[CageMesh, CageReduction]:
@@ -92,30 +65,3 @@ def throw_cage(
     """Give the cage a speed [m/s] across the axis, at an azimuth [rad]."""
     for part in (bearing.layout.u(y)["cage"], bearing.layout.q(yd)["cage"]):
         part[1:] = speed * np.cos(direction), speed * np.sin(direction)
-
-
-def march(
-    case: Case,
-    bearing: Bearing,
-    y: np.ndarray,
-    yd: np.ndarray,
-    *,
-    also: Callable[[Integration], Any] | None = None,
-) -> Any:
-    """Integrate a bearing from a chosen state for the case's duration; its dataset (xarray).
-
-    ``also(integration)`` is called before the first step.
-    """
-    Z, stations = bearing.layout.elements, bearing.data.model.pocket.phi.shape[2]
-    start = Start(y, yd, (), 0.0, 0.0, np.zeros((Z, 4, stations, 3)))
-    recording = recording_of(case.bearing)
-    store = new_store(
-        None, bearing, recording, duration=case.solver.duration, output=case.output, attrs={}
-    )
-    integration = Integration(
-        bearing, recording, start, store, solver=case.solver, output=case.output
-    )
-    if also is not None:
-        also(integration)
-    integration.march()
-    return store.dataset()

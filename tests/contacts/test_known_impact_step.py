@@ -1,13 +1,24 @@
-"""The IMPACT function of ADAMS: its STEP, and the restitution that its damping gives."""
+"""The IMPACT function of ADAMS: its STEP, and the restitution that its damping gives.
+
+The cubic STEP, and what restitution a c_max really gives: 0.1 % of K, as papers propose, leaves
+next to none, and it falls with speed, for 1 % of K in proportion: an overdamped ball creeps out of
+the race, whatever speed it came in with.
+
+Source: STEP and IMPACT as documented by ADAMS; restitution by direct integration in an independent
+program, for a ball of the 7010C of 'Measurement and Dynamic Analysis of the Centroid Trajectories
+of Angular-Contact Ball Bearing Cages'.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
+from known_rows import check
+from law_values import normal, strike
+
 from flexcage.contacts import laws
 from flexcage.contacts.spec import NormalLaw
-from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
-from flexcage.verification.law_values import normal, strike
+from flexcage.verification import Row, Tolerance
 
 STEP = {0.1: 0.028, 0.25: 0.15625, 0.5: 0.5, 0.75: 0.84375, 0.9: 0.972, 1.0: 1.0, 3.0: 1.0}
 STIFFNESS, MASS = 8.286e5 * 1e3**1.5, 3.529e-3  # N/m^1.5, kg: a ball of a 7010C
@@ -54,14 +65,5 @@ def rows() -> Iterator[Row]:
         yield Row(name, "", expected, restitution(8286.0, 0.01, speed), THREE_DIGITS)
 
 
-CASE = KnownAnswer(
-    name="impact_step",
-    title="IMPACT with STEP damping",
-    source="STEP and IMPACT as documented by ADAMS; restitution by direct integration in an "
-    "independent program, for a ball of the 7010C of 'Measurement and Dynamic Analysis of the "
-    "Centroid Trajectories of Angular-Contact Ball Bearing Cages'",
-    checks="The cubic STEP, and what restitution a c_max really gives: 0.1 % of K, as papers "
-    "propose, leaves next to none, and it falls with speed, for 1 % of K in proportion: an "
-    "overdamped ball creeps out of the race, whatever speed it came in with.",
-    rows=rows,
-)
+def test_impact_with_step_damping():
+    check(rows())

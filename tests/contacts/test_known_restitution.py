@@ -1,15 +1,24 @@
-"""Impacts with damping in proportion to K d^n: the restitution that a lambda gives."""
+"""Impacts with damping in proportion to K d^n: the restitution that a lambda gives.
+
+The law `restitution` gives the coefficient asked for, at any exponent, mass and speed; with other
+authors' lambda the same force law misses as much as is known of them.
+
+Source: exact relation ln[(1+lambda)/(1-lambda e)] = lambda (1+e) of F = K d^n (1 + (lambda/v0) d');
+Hunt and Crossley 1975, Lankarani and Nikravesh 1990, Flores et al. 2011, Hu and Guo 2015, Zhiying
+and Qishao 2006; numbers by direct integration in an independent program.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 import numpy as np
+from known_rows import check
+from law_values import strike
 
 from flexcage.contacts import laws
 from flexcage.contacts.spec import NormalLaw
-from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
-from flexcage.verification.law_values import strike
+from flexcage.verification import Row, Tolerance
 
 BALL = (8.69343e9, 1.5, 2.7173e-3)  # K [N/m^n], n, mass [kg]
 ROLLER = (454517.4944 * 1e3 ** (10.0 / 9.0), 10.0 / 9.0, 3.1567e-3)
@@ -50,14 +59,5 @@ def rows() -> Iterator[Row]:
             yield Row(f"e by {author} for {e}", "", expected, found, PRINTED)
 
 
-CASE = KnownAnswer(
-    name="restitution",
-    title="Coefficient of restitution",
-    source="exact relation ln[(1+lambda)/(1-lambda e)] = lambda (1+e) of F = K d^n (1 + "
-    "(lambda/v0) d'); Hunt and Crossley 1975, Lankarani and Nikravesh 1990, Flores et al. 2011, "
-    "Hu and Guo 2015, Zhiying and Qishao 2006; numbers by direct integration in an independent "
-    "program",
-    checks="The law `restitution` gives the coefficient asked for, at any exponent, mass and "
-    "speed; with other authors' lambda the same force law misses as much as is known of them.",
-    rows=rows,
-)
+def test_restitution():
+    check(rows())

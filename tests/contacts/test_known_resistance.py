@@ -1,4 +1,15 @@
-"""Force that rolls a lubricated roller or ball on: elastohydrodynamic, and of a rigid film."""
+"""Force that rolls a lubricated roller or ball on: elastohydrodynamic, and of a rigid film.
+
+The force on one surface of the most loaded inner contact of an N1013 in oil of 20 mPa s, and the
+constant of the film between rigid surfaces that replaces it at light load; the force on one surface
+of a 7010C's ball in the same oil, and how it grows. That the bearing in motion feels the latter is
+in tests/verification/test_balls_on_a_race.py.
+
+Source: Goksem and Hargreaves, J. Lubr. Technol. 100 (1978) 346, and for balls L. Houpert, J.
+Tribol. 109 (1987) 363, F = 2.86 E' R^2 kappa^0.348 G^0.022 U^0.66 W^0.47, both fully flooded and
+isothermal, numbers from an independent program; H. M. Martin, Engineering 102 (1916) 119,
+integrated here.
+"""
 
 from __future__ import annotations
 
@@ -7,15 +18,16 @@ from dataclasses import replace
 from math import log
 
 import numpy as np
+from known_rows import check
+from law_values import rolling
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from flexcage.contacts import laws
 from flexcage.contacts.spec import Lubricant
 from flexcage.geometry.hertz import PointContact
-from flexcage.verification.inside import ball_bearing
-from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
-from flexcage.verification.law_values import rolling
+from flexcage.verification import Row, Tolerance
+from flexcage.verification.bearings import preset
 
 OIL = Lubricant(viscosity=0.02, pressure_coefficient=2e-8, rolling_resistance="goksem_hargreaves")
 RADIUS = 4e-3 * 37.25 / 41.25  # roller and inner race of the N1013 [m]
@@ -54,7 +66,7 @@ def ball_force(
 
 
 def ball_rows() -> Iterator[Row]:
-    contact = ball_bearing("7010C-PA66").contacts[0]
+    contact = preset("7010C-PA66").contacts[0]
     force = ball_force(OIL, contact)
     yield Row("ball, 255 N at 13.37 m/s", "N", 0.1435, force, PRINTED)
     doubled = {
@@ -70,24 +82,15 @@ def ball_rows() -> Iterator[Row]:
         yield Row(f"ball, power of {name}", "", power, grown, EXACT)
 
 
-def rows() -> Iterator[Row]:
+def test_a_roller():
     c = laws.rolling_resistance(OIL, RADIUS, LENGTH, MODULUS)
     (force,) = rolling(c, 12.837, 185.7)
-    yield Row("roller, 185.7 N at 12.837 m/s", "N", 0.7097, force, PRINTED)
-    yield Row("rigid film, constant", "", martin_constant(), laws.IVR_CONSTANT, QUADRATURE)
-    yield from ball_rows()
+    check([Row("roller, 185.7 N at 12.837 m/s", "N", 0.7097, force, PRINTED)])
 
 
-CASE = KnownAnswer(
-    name="rolling_resistance",
-    title="Rolling resistance of a lubricated roller and ball",
-    source="Goksem and Hargreaves, J. Lubr. Technol. 100 (1978) 346, and for balls L. Houpert, J. "
-    "Tribol. 109 (1987) 363, F = 2.86 E' R^2 kappa^0.348 G^0.022 U^0.66 W^0.47, both fully flooded "
-    "and isothermal, numbers from an independent program; H. M. Martin, Engineering 102 (1916) "
-    "119, integrated here",
-    checks="The force on one surface of the most loaded inner contact of an N1013 in oil of 20 mPa "
-    "s, and the constant of the film between rigid surfaces that replaces it at light load; the "
-    "force on one surface of a 7010C's ball in the same oil, and how it grows. That the bearing in "
-    "motion feels the latter is in `ball_race_run`.",
-    rows=rows,
-)
+def test_the_constant_of_a_rigid_film():
+    check([Row("constant", "", martin_constant(), laws.IVR_CONSTANT, QUADRATURE)])
+
+
+def test_a_ball():
+    check(ball_rows())
