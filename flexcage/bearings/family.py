@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from flexcage.geometry.ring import SectionsOf
     from flexcage.integrate.recording import Recording
     from flexcage.render.shapes import ShapesOf
-    from flexcage.results.figures import OwnFigures
+    from flexcage.results.figures.part import OwnFigures
     from flexcage.results.metrics import ElementSpeed
     from flexcage.results.registry import OwnVariables
     from flexcage.stress.rubbing import Rub

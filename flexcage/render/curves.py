@@ -13,7 +13,7 @@ from flexcage.core.errors import InputError
 from flexcage.render import sheet
 from flexcage.render.elements import shown_faces
 from flexcage.results import metrics
-from flexcage.results.known import KNOWN
+from flexcage.results.figures.table import FIGURES
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.registry import NEIGHBOURS
 from flexcage.stress.places import in_words
@@ -281,8 +281,8 @@ def _speed_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, *, bearing, **_: An
 def carrier_title(ds: xarray.Dataset) -> str:
     """Title of the speed of what goes round with the elements."""
     if metrics.caged(ds):
-        return KNOWN["cage_speed"].title
-    return KNOWN["orbital_speed"].titled(Element=metrics.element(ds).capitalize())
+        return FIGURES["cage_speed"].title
+    return FIGURES["orbital_speed"].titled(Element=metrics.element(ds).capitalize())
 
 
 def _neighbour_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, **_: Any) -> None:

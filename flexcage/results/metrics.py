@@ -11,7 +11,7 @@ taken over whole cage revolutions after the start was left out. Whirl is positiv
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
@@ -111,11 +111,12 @@ class BallRolling:
 
 @dataclass(frozen=True)
 class Whirl:
-    """Orbit of the cage centre [m]: radius about the centre named, ratio (max - min)/mean, and
-    whirl speed over cage speed (+1 synchronous, negative: backward).
+    """Orbit of the cage centre [m]: radius about the centre named (time,), ratio (max - min)/mean,
+    and whirl speed over cage speed (+1 synchronous, negative: backward).
     """
 
     about: str
+    radius: np.ndarray = field(repr=False, compare=False)
     mean: float
     smallest: float
     largest: float
@@ -266,7 +267,11 @@ def varies(values: np.ndarray, share: float = 0.01) -> bool:
 def cage_speed(ds: xarray.Dataset, bearing: BearingNumbers) -> CageSpeed:
     """Mean speed of the cage, or without one of the elements' orbits, against the epicyclic speeds
     of the mean inner speed."""
-    part = whole_revolutions(ds)
+    return speed_over(whole_revolutions(ds), bearing)
+
+
+def speed_over(part: xarray.Dataset, bearing: BearingNumbers) -> CageSpeed:
+    """The same over all of a part of a run."""
     t, angle = part["time"].values, carrier_angle(part)
     mean = (angle[-1] - angle[0]) / (t[-1] - t[0])
     inner = _mean(t, part["inner_speed"].values)
@@ -384,13 +389,14 @@ def whirl_radius(ds: xarray.Dataset, *, about: str = "mean") -> np.ndarray:
 def whirl(ds: xarray.Dataset, *, about: str = "mean") -> Whirl:
     """Whirl of the cage centre about the orbit's ``mean`` or the outer ring's ``axis``."""
     yz = _about(ds, about)
-    r = whirl_radius(ds, about=about)
+    r = np.hypot(yz[:, 0], yz[:, 1])
     mean = float(r.mean())
     phase = np.unwrap(np.arctan2(yz[:, 1], yz[:, 0]))
     turned = carrier_angle(ds)
     cage = turned[-1] - turned[0]
     return Whirl(
         about,
+        r,
         mean,
         float(r.min()),
         float(r.max()),

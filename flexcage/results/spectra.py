@@ -17,7 +17,7 @@ import numpy as np
 from flexcage.core.errors import InputError
 from flexcage.results import metrics
 from flexcage.results.evenly import FEWEST, grid_of, series
-from flexcage.results.known import KNOWN
+from flexcage.results.figures.table import FIGURES
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.registry import NEIGHBOURS
 
@@ -110,7 +110,7 @@ def _outer_envelope(ds: xarray.Dataset) -> xarray.DataArray | None:
 SIGNALS: Mapping[str, Signal] = MappingProxyType(
     {
         "cage_centre": Signal("Cage centre, from the outer ring's", _cage_centre),
-        "cage_speed": Signal(KNOWN["cage_speed"].title, _cage_speed),
+        "cage_speed": Signal(FIGURES["cage_speed"].title, _cage_speed),
         "pocket_forces": Signal("Sum of the pocket forces", _pocket_forces),
         "orbital_speed": Signal("Mean orbital speed of the elements", _orbital_speed),
         "neighbour_forces": Signal("Sum of the forces between neighbours", _neighbour_forces),

@@ -30,7 +30,7 @@ from flexcage.results.audit import EXCEEDED, OF_CAGE, OF_DRIVE
 from flexcage.results.bootstrap import FEWEST
 from flexcage.results.edges import Edge
 from flexcage.results.elastic import ElasticShape, grown_into_ring, large_rotation
-from flexcage.results.known import NO_DRIFT
+from flexcage.results.figures.speeds import NO_DRIFT
 from flexcage.results.summary import Summary
 
 if TYPE_CHECKING:

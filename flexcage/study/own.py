@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING
 
 from flexcage.core.errors import InputError
 from flexcage.core.registry import add, check_free
-from flexcage.results.known import KNOWN
+from flexcage.results.figures.table import FIGURES
 from flexcage.results.reductions import DERIVED
 from flexcage.results.registry import VARIABLES
-from flexcage.results.summary import SHOWN
+from flexcage.results.row import SHOWN
 
 if TYPE_CHECKING:
     from flexcage.run import Run
@@ -49,7 +49,7 @@ def register_outputs(compute: Compute, units: Mapping[str, str]) -> None:
     no figure is shown in.
     """
     for name, shown in units.items():
-        for taken, what in ((KNOWN, "figure"), (VARIABLES, VARIABLE), (DERIVED, VARIABLE)):
+        for taken, what in ((FIGURES, "figure"), (VARIABLES, VARIABLE), (DERIVED, VARIABLE)):
             check_free(taken, name, what=what)
         if shown not in SHOWN:
             raise InputError(

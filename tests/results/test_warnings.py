@@ -15,7 +15,8 @@ from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.basis import BodyFit
 from flexcage.results.edges import Edge
 from flexcage.results.elastic import ElasticShape
-from flexcage.results.summary import Row, Section, Summary
+from flexcage.results.row import Row
+from flexcage.results.summary import Section, Summary
 from flexcage.results.warnings import (
     AT_END,
     AT_START,

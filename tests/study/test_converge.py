@@ -11,8 +11,9 @@ from flexcage import cli
 from flexcage.case import load_case
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.core.warning import RunWarning
+from flexcage.results.row import Row
 from flexcage.results.statistics import Record
-from flexcage.results.summary import Row, Section, Summary
+from flexcage.results.summary import Section, Summary
 from flexcage.simulate import simulate
 from flexcage.study import converge as module
 from flexcage.study import work
