@@ -10,7 +10,7 @@ import numpy as np
 
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.hertz import over_edge
-from flexcage.results.figures.figure import Facts, Found
+from flexcage.results.figures.figure import Found
 
 if TYPE_CHECKING:
     import xarray
@@ -59,17 +59,6 @@ class Edge:
             f"t = {self.time * 1e3:.3f} ms"
         )
         return Found(self.beyond, where)
-
-
-@dataclass(frozen=True)
-class Edges(Facts):
-    """The worst ellipse at each groove whose edge is known."""
-
-    edges: tuple[Edge, ...]
-
-    def at(self, race: str) -> Found | None:
-        """The figure of a groove."""
-        return next((edge.found for edge in self.edges if edge.race == race), None)
 
 
 def groove_edges(bearing: Bearing, ds: xarray.Dataset) -> list[Edge]:

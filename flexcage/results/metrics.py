@@ -70,6 +70,21 @@ class BearingNumbers:
         """Contact angles [rad] of inner and outer race to which kinematics refer."""
         return self.own_angles or (self.contact_angle, self.contact_angle)
 
+    @property
+    def at_angles(self) -> str:
+        """At which contact angles kinematics are taken, in words; "" for the nominal one."""
+        if self.own_angles is None:
+            return ""
+        inner, outer = np.degrees(self.own_angles)
+        return (
+            f"pure rolling at the mean contact angles, {inner:.1f} deg inner, {outer:.1f} deg outer"
+        )
+
+    @property
+    def at_nominal(self) -> str:
+        """The nominal contact angle, in words."""
+        return f"by the nominal contact angle, {np.degrees(self.contact_angle):.4g} deg"
+
     def kinematics(self, inner_speed: float, outer_speed: float = 0.0) -> Kinematics:
         """Speeds without slip at the given speeds of the rings [rad/s]."""
         return epicyclic(

@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING
 
 from flexcage.mesh.quality import report_mesh
 from flexcage.results import mode_file
-from flexcage.results.edges import Edges
-from flexcage.results.figures.cage import SUPPORT, CageFacts, Held, cage_rows
-from flexcage.results.figures.effort import SOLVER, TIMES, Solved, Times
+from flexcage.results.figures.cage import SUPPORT, CageFacts, cage_rows
+from flexcage.results.figures.effort import SOLVER, TIMES
 from flexcage.results.figures.figure import rows_of
 from flexcage.results.figures.film import FILM, Lubricated
 from flexcage.results.figures.part import Part
 from flexcage.results.figures.sections import summarise
-from flexcage.results.figures.stress import RIVETS, STRESS, Riveted
+from flexcage.results.figures.stress import RIVETS, stress_rows
 from flexcage.results.figures.table import FIGURES
 from flexcage.results.metrics import SlipRange
 from flexcage.results.row import Row
@@ -32,11 +31,10 @@ def summary_of(run: RunRecord, *, stress: bool = True) -> Summary:
     proof stress."""
     case, part = run.case, part_of(run)
     summary = summarise(part)
-    edges = Edges(tuple(run.groove_edges))
     for rows in (
         FILM.rows(Lubricated(part, case.bearing, case.lubricant.oil)),
-        rows_of([FIGURES[edge.key] for edge in edges.edges], edges),
-        SUPPORT.rows(Held(case.held_in_words)),
+        [FIGURES[edge.key].row(edge.found) for edge in run.groove_edges],
+        SUPPORT.rows(case.held_in_words),
         _cage_rows(run),
     ):
         summary = summary.with_figures(rows)
@@ -45,7 +43,7 @@ def summary_of(run: RunRecord, *, stress: bool = True) -> Summary:
         if stress or run.cage_stress.may_exceed(proof):
             summary = with_stress(summary, run)
     if run.effort is not None:
-        summary = summary.with_figures(SOLVER.rows(Solved(run.effort)))
+        summary = summary.with_figures(SOLVER.rows(run.effort))
     return warned(timed(summary, run), run)
 
 
@@ -58,10 +56,10 @@ def part_of(run: RunRecord) -> Part:
 
 def with_stress(summary: Summary, run: RunRecord) -> Summary:
     """The summary with stress behind the cage's figures."""
-    summary = summary.with_figures(STRESS.rows(run.cage_stress.figures), after="cage_mass")
+    summary = summary.with_figures(stress_rows(run.cage_stress.figures), after="cage_mass")
     if not run.case.riveted:
         return summary
-    return summary.with_figures(RIVETS.rows(Riveted(run.rivets)), after="stress_peak")
+    return summary.with_figures(RIVETS.rows(run.rivets), after="stress_peak")
 
 
 def warned(summary: Summary, run: RunRecord) -> Summary:
@@ -87,7 +85,7 @@ def warned(summary: Summary, run: RunRecord) -> Summary:
 def timed(summary: Summary, run: RunRecord) -> Summary:
     """The summary with the wall times of all stages so far."""
     stages = [FIGURES[f"wall_{stage}"] for stage in (*run.stages, "total")]
-    return summary.with_section(TIMES.section, rows_of(stages, Times(run.stages)))
+    return summary.with_section(TIMES.section, rows_of(stages, run.stages))
 
 
 def _cage_rows(run: RunRecord) -> tuple[Row, ...]:

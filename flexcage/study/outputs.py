@@ -15,7 +15,6 @@ from flexcage.cages import riveted_cages
 from flexcage.core.binding import did_you_mean
 from flexcage.core.errors import InputError
 from flexcage.core.wings import FAMILIES
-from flexcage.results.figures.effort import Times
 from flexcage.results.figures.figure import (
     CAGED,
     FATIGUE,
@@ -34,9 +33,7 @@ from flexcage.results.figures.stress import (
     STRESS,
     STRESS_TIME,
     TRACKS,
-    Damaged,
-    Riveted,
-    Rubbed,
+    stress_rows,
 )
 from flexcage.results.figures.table import FIGURES
 from flexcage.results.metrics import carrier_angle, settled, whole_revolutions
@@ -143,26 +140,26 @@ class Reduction:
 
 def _fatigue(run: Run) -> dict[str, Figure]:
     """Damage and life at the worst place."""
-    return _figures_in(DAMAGE.rows(Damaged(run.fatigue().worst.rate)))
+    return _figures_in(DAMAGE.rows(run.fatigue().worst.rate))
 
 
 def _wear(run: Run) -> dict[str, Figure]:
     """Volume from all pockets, and the depth of the deepest track at first."""
-    return _figures_in(TRACKS.rows(Rubbed(run.wear())))
+    return _figures_in(TRACKS.rows(run.wear()))
 
 
 def _rivets(run: Run) -> dict[str, Figure]:
     """The largest loads of rivets; none of a cage that has no stress or no rivets."""
     if not run.case.riveted:
         return {}
-    rows = RIVETS.rows(Riveted(run.rivets))
-    return _figures_in([*rows, *RIVETS_TIME.rows(Times(run.stages))])
+    rows = RIVETS.rows(run.rivets)
+    return _figures_in([*rows, *RIVETS_TIME.rows(run.stages)])
 
 
 def _stress(run: Run) -> dict[str, Figure]:
     """Equivalent stress, which a case leaves out while no output of its study needs it."""
-    rows = STRESS.rows(run.cage_stress.figures)
-    return _figures_in([*rows, *STRESS_TIME.rows(Times(run.stages))])
+    rows = stress_rows(run.cage_stress.figures)
+    return _figures_in([*rows, *STRESS_TIME.rows(run.stages)])
 
 
 def _figures_in(rows: Iterable[Row]) -> dict[str, Figure]:

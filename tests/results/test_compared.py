@@ -26,7 +26,7 @@ def summary_of(scale: float, *, margin: float | None = 1.0, **values: object) ->
     rows = [
         Row("cage_speed", "Cage speed", 280.0 * RPM, "rpm", NOTE, 0.5 * RPM),
         *(Row(k, FIGURES[k].title, 10.0 * scale, "N", margin=margin) for k in forces),
-        *(FIGURES[k].row_of(v) for k, v in values.items()),
+        *(FIGURES[k].row(v) for k, v in values.items()),
     ]
     found = Summary(warnings=(RunWarning("short", f"It is short by {scale:g}."),))
     for row in rows:

@@ -94,8 +94,8 @@ def test_a_mark_puts_a_figure_on_its_page():
 
 def test_a_title_takes_the_bearings_words():
     passes = FIGURES["roller_passes"]
-    assert passes.row_of(3).label == "Element passes counted"
-    assert passes.row_of(3, {"Element": "Ball"}).label == "Ball passes counted"
+    assert passes.row(3).label == "Element passes counted"
+    assert passes.row(3, Element="Ball").label == "Ball passes counted"
     assert FIGURES["pocket_force_mean"].quantity == "pocket force"
 
 
@@ -114,12 +114,12 @@ def test_a_section_of_a_summary_is_named_in_the_list_alone():
 
 
 def test_figures_of_a_section_stand_behind_the_figure_that_is_named():
-    mass, steps, peak = (FIGURES[k].row_of(1.0) for k in ("cage_mass", "steps", "stress_peak"))
+    mass, steps, peak = (FIGURES[k].row(1.0) for k in ("cage_mass", "steps", "stress_peak"))
     first = Summary().with_figures([mass]).with_figures([steps])
     summary = first.with_figures([peak], after="cage_mass")
     assert [s.rows[0].key for s in summary.sections] == ["cage_mass", "stress_peak", "steps"]
     assert [s.title for s in summary.sections] == [
         FIGURES[key].section for key in ("cage_mass", "stress_peak", "steps")
     ]
-    assert summary.with_figures([FIGURES["steps"].row_of(4)])["steps"] == 4
+    assert summary.with_figures([FIGURES["steps"].row(4)])["steps"] == 4
     assert summary.with_figures([]) == summary

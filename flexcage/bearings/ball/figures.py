@@ -7,65 +7,47 @@ from functools import partial
 import numpy as np
 
 from flexcage.bearings.ball.slip import slip_ratio
-from flexcage.results.angles import at_angles, at_nominal
-from flexcage.results.edges import Edges
-from flexcage.results.figures.figure import BRIEF, SIGNED, STATISTIC, Found, Table
+from flexcage.results.edges import Edge
+from flexcage.results.figures.figure import Found, Table
 from flexcage.results.figures.part import OwnFigures, Part
 
-SPEEDS = Table[Part]("Speeds")
 
-
-@SPEEDS.figure(
-    "Epicyclic cage speed, nominal", "rpm",
-    "cage speed of pure rolling at the nominal contact angle", SIGNED,
-)  # fmt: skip
-def epicyclic_speed_nominal(part: Part) -> Found:
-    """Balls leave that angle under load."""
-    return Found(part.speed.nominal, at_nominal(part.bearing))
-
-
-@SPEEDS.figure("Cage slip ratio, nominal", "%", "cage slip against that speed", SIGNED, STATISTIC)
-def cage_slip_ratio_nominal(part: Part) -> Found | None:
+def _nominal_slip(part: Part) -> Found | None:
     if not part.caged:
         return None
     slip = part.slip(part.bearing.nominal)
-    return Found(part.speed.nominal_slip, at_nominal(part.bearing), slip)
+    return Found(part.speed.nominal_slip, part.bearing.at_nominal, slip)
 
 
-@SPEEDS.figure(
-    "Ball speed, mean of all", "rpm",
-    "about the ball's axis, cage frame, positive as in rolling", SIGNED,
-)  # fmt: skip
-def ball_spin(part: Part) -> Found:
-    return Found(part.spin, "about its own axis, cage frame, positive as in rolling")
-
-
-@SPEEDS.figure(
-    "Ball speed, pure rolling", "rpm",
-    "the same in pure rolling at the run's mean contact angles", SIGNED,
-)  # fmt: skip
-def ball_spin_ideal(part: Part) -> Found:
+def _spin_ideal(part: Part) -> Found:
     ideal = part.own.kinematics(part.inner_speed).element_spin_in_cage
-    return Found(abs(ideal), at_angles(part.own))
+    return Found(abs(ideal), part.own.at_angles)
 
 
-SLIP = Table[Part]("Slip")
+# fmt: off
+SPEEDS = Table[Part]("Speeds")
+SPEEDS.add("epicyclic_speed_nominal", "Epicyclic cage speed, nominal", "rpm",
+           "cage speed of pure rolling at the nominal contact angle", "signed",
+           take=lambda part: Found(part.speed.nominal, part.bearing.at_nominal))
+SPEEDS.add("cage_slip_ratio_nominal", "Cage slip ratio, nominal", "%",
+           "cage slip against that speed", "signed", "statistic", take=_nominal_slip)
+SPEEDS.add("ball_spin", "Ball speed, mean of all", "rpm",
+           "about the ball's axis, cage frame, positive as in rolling", "signed",
+           take=lambda part: Found(part.spin,
+                                   "about its own axis, cage frame, positive as in rolling"))
+SPEEDS.add("ball_spin_ideal", "Ball speed, pure rolling", "rpm",
+           "the same in pure rolling at the run's mean contact angles", "signed",
+           take=_spin_ideal)
+# fmt: on
 
 
-@SLIP.figure(
-    "Slip ratio, loaded balls, nominal", "%",
-    "loaded balls' slip against pure rolling at the nominal contact angle", SIGNED, STATISTIC,
-)  # fmt: skip
-def slip_loaded_nominal(part: Part) -> Found:
+def _slip_nominal(part: Part) -> Found:
+    """Balls leave the nominal contact angle under load."""
     nominal = slip_ratio(part.whole, part.bearing, nominal=True)
-    return Found(part.over(nominal, part.zone), at_nominal(part.bearing))
+    return Found(part.over(nominal, part.zone), part.bearing.at_nominal)
 
 
-@SLIP.figure(
-    "Slip ratio by the grooves' curvature", "%",
-    "what curvature alone makes: balls roll on lines beside the middle of a contact",
-)  # fmt: skip
-def slip_curvature(part: Part) -> Found:
+def _curvature(part: Part) -> Found:
     note = "balls roll on lines beside the middle of curved contacts"
     return Found(part.rolling.ball_slip if part.rolling else None, note)
 
@@ -83,45 +65,30 @@ def _contact_angle(race: int, part: Part) -> Found:
     return Found(mean, f"loaded balls; {low:.2f} to {high:.2f} deg")
 
 
-SLIP.add(
-    "contact_angle_inner", "Contact angle, inner race", "deg", "mean of loaded balls", SIGNED,
-    BRIEF, take=partial(_contact_angle, 0),
-)  # fmt: skip
-SLIP.add(
-    "contact_angle_outer", "Contact angle, outer race", "deg", "mean of loaded balls", SIGNED,
-    take=partial(_contact_angle, 1),
-)  # fmt: skip
-
-
-GROOVES = Table[Edges]("Grooves")
-
-
-@GROOVES.figure(
-    "Ellipse beyond the inner groove's edge", "deg",
-    "largest angle by which a contact ellipse passes the edge; below zero: it stays within", SIGNED,
-)  # fmt: skip
-def edge_inner(edges: Edges) -> Found | None:
-    return edges.at("inner")
-
-
-@GROOVES.figure("Ellipse beyond the outer groove's edge", "deg", "likewise", SIGNED)
-def edge_outer(edges: Edges) -> Found | None:
-    return edges.at("outer")
-
-
+# fmt: off
+SLIP = Table[Part]("Slip")
+SLIP.add("slip_loaded_nominal", "Slip ratio, loaded balls, nominal", "%",
+         "loaded balls' slip against pure rolling at the nominal contact angle",
+         "signed", "statistic", take=_slip_nominal)
+SLIP.add("slip_curvature", "Slip ratio by the grooves' curvature", "%",
+         "what curvature alone makes: balls roll on lines beside the middle of a contact",
+         take=_curvature)
+SLIP.add("contact_angle_inner", "Contact angle, inner race", "deg", "mean of loaded balls",
+         "signed", "brief", take=partial(_contact_angle, 0))
+SLIP.add("contact_angle_outer", "Contact angle, outer race", "deg", "mean of loaded balls",
+         "signed", take=partial(_contact_angle, 1))
+GROOVES = Table[Edge]("Grooves")
+GROOVES.add("edge_inner", "Ellipse beyond the inner groove's edge", "deg",
+            "largest angle by which a contact ellipse passes the edge; below zero: it stays within",
+            "signed", take=lambda edge: edge.found)
+GROOVES.add("edge_outer", "Ellipse beyond the outer groove's edge", "deg", "likewise", "signed",
+            take=lambda edge: edge.found)
 MOTION = Table[Part]("Cage motion")
-
-
-@MOTION.figure(
-    "Whirl radius, max - min", "um", "of the centre's distance from the ring's axis", SIGNED
-)
-def whirl_difference(part: Part) -> Found | None:
-    """How far the cage's centre comes and goes."""
-    if not part.caged:
-        return None
-    axis = part.about_axis
-    return Found(axis.largest - axis.smallest, "about the ring's axis")
-
+MOTION.add("whirl_difference", "Whirl radius, max - min", "um",
+           "of the centre's distance from the ring's axis", "signed",
+           take=lambda part: Found(part.about_axis.largest - part.about_axis.smallest,
+                                   "about the ring's axis"))
+# fmt: on
 
 FIGURES = OwnFigures(
     tables=(SPEEDS, SLIP, GROOVES, MOTION),

@@ -4,72 +4,52 @@ from __future__ import annotations
 
 import numpy as np
 
-from flexcage.results.figures.figure import SIGNED, STATISTIC, Found, Table
+from flexcage.results.figures.figure import Found, Table
 from flexcage.results.figures.part import OwnFigures, Part
 
-SPEEDS = Table[Part]("Speeds")
 
-
-@SPEEDS.figure(
-    "Roller spin, mean of all", "rpm",
-    "about the roller's axis, inertial frame, positive as in rolling", SIGNED,
-)  # fmt: skip
-def roller_spin(part: Part) -> Found:
-    return Found(part.spin, "inertial frame, positive as in rolling")
-
-
-@SPEEDS.figure("Roller spin, pure rolling", "rpm", "the same in pure rolling", SIGNED)
-def roller_spin_ideal(part: Part) -> float:
-    return abs(part.bearing.kinematics(part.inner_speed).element_spin)
-
-
-SLIP = Table[Part]("Slip")
-
-
-@SLIP.figure(
-    "Sliding, inner race, unloaded", "m/s", "mean sliding speed of unloaded rollers", SIGNED
-)
-def sliding_inner_unloaded(part: Part) -> float:
-    return part.sliding_unloaded[0]
-
-
-@SLIP.figure(
-    "Sliding, outer race, unloaded", "m/s", "mean sliding speed of unloaded rollers", SIGNED
-)
-def sliding_outer_unloaded(part: Part) -> float:
-    return part.sliding_unloaded[1]
-
-
-FORCES = Table[Part]("Forces")
-
-
-def _counter_ribs(part: Part) -> np.ndarray:
-    """Forces of counter ribs (time, element, rib) [N]; none of designs without any."""
+def _counter_ribs(part: Part) -> np.ndarray | None:
+    """Forces of counter ribs (time, element, rib) [N]."""
     if "counter_rib_force" not in part.ds:  # a part of a run
-        return np.zeros((0, 0, 0))
+        return None
     return part.ds["counter_rib_force"].transpose("time", "element", "rib").values
 
 
-@FORCES.figure(
-    "Axial load through ribs, mean", "N",
-    "from ring to ring through all rollers; zero of the designs N and NU", STATISTIC,
-)  # fmt: skip
-def axial_through_ribs(part: Part) -> Found | None:
+def _through_ribs(part: Part) -> Found | None:
     force = _counter_ribs(part)
-    if not force.size:
+    if force is None:
         return None
     plus, minus = np.moveaxis(force.sum(axis=1), -1, 0)
     return Found(part.windows.mean(np.abs(plus - minus)), idle=not force.any())
 
 
-@FORCES.figure(
-    "Counter rib on a roller, peak", "N",
-    "largest normal force on one end; zero of the designs N and NU",
-)  # fmt: skip
-def counter_rib_peak(part: Part) -> Found | None:
+def _rib_peak(part: Part) -> Found | None:
     force = _counter_ribs(part)
-    return Found(float(force.max()), idle=not force.any()) if force.size else None
+    return None if force is None else Found(float(force.max()), idle=not force.any())
 
+
+# fmt: off
+SPEEDS = Table[Part]("Speeds")
+SPEEDS.add("roller_spin", "Roller spin, mean of all", "rpm",
+           "about the roller's axis, inertial frame, positive as in rolling", "signed",
+           take=lambda part: Found(part.spin, "inertial frame, positive as in rolling"))
+SPEEDS.add("roller_spin_ideal", "Roller spin, pure rolling", "rpm", "the same in pure rolling",
+           "signed",
+           take=lambda part: abs(part.bearing.kinematics(part.inner_speed).element_spin))
+SLIP = Table[Part]("Slip")
+SLIP.add("sliding_inner_unloaded", "Sliding, inner race, unloaded", "m/s",
+         "mean sliding speed of unloaded rollers", "signed",
+         take=lambda part: part.sliding_unloaded[0])
+SLIP.add("sliding_outer_unloaded", "Sliding, outer race, unloaded", "m/s",
+         "mean sliding speed of unloaded rollers", "signed",
+         take=lambda part: part.sliding_unloaded[1])
+FORCES = Table[Part]("Forces")
+FORCES.add("axial_through_ribs", "Axial load through ribs, mean", "N",
+           "from ring to ring through all rollers; zero of the designs N and NU", "statistic",
+           take=_through_ribs)
+FORCES.add("counter_rib_peak", "Counter rib on a roller, peak", "N",
+           "largest normal force on one end; zero of the designs N and NU", take=_rib_peak)
+# fmt: on
 
 FIGURES = OwnFigures(
     tables=(SPEEDS, SLIP, FORCES),

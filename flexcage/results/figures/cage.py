@@ -12,7 +12,7 @@ from flexcage.core.units import typeset
 from flexcage.geometry.cage import Cage
 from flexcage.mesh.quality import MeshReport
 from flexcage.modes.basis import ModeBasis
-from flexcage.results.figures.figure import CONVERGENCE, FLEXIBLE, TEXT, Facts, Found, Table
+from flexcage.results.figures.figure import FLEXIBLE, Found, Table
 from flexcage.results.row import Row
 from flexcage.system.bodies import unbalance_of
 
@@ -23,23 +23,15 @@ _FAR = (
 )
 
 
-@dataclass(frozen=True)
-class Held(Facts):
-    """What holds the inner ring, in words."""
-
-    words_of_load: str
-
-
-SUPPORT = Table[Held]("Support")
-
-
-@SUPPORT.figure("Support of the inner ring", "", "what holds the ring", TEXT)
-def inner_held(held: Held) -> str:
-    return held.words_of_load
+SUPPORT = Table[str]("Support")
+SUPPORT.add(
+    "inner_held", "Support of the inner ring", "", "what holds the ring", "text",
+    take=lambda held: held,
+)  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class CageFacts(Facts):
+class CageFacts:
     """A run's cage, its mesh and, of a flexible one, its modes, whose table stands in a file."""
 
     cage: Cage
@@ -48,9 +40,6 @@ class CageFacts(Facts):
     table: str
     pinched: Sequence[int] = ()  # pockets
     pinch_force: float = 0.0  # N
-
-    def has(self, need: str) -> bool:
-        return self.basis is not None
 
     @property
     def modes(self) -> ModeBasis:
@@ -70,22 +59,8 @@ class CageFacts(Facts):
         return mass + added, centre, note
 
 
-CAGE = Table[CageFacts]("Cage")
-
-
-@CAGE.figure("Cage mass", "g", "with the mass that unbalances it", CONVERGENCE)
-def cage_mass(facts: CageFacts) -> Found:
-    mass, _, note = facts.mass
-    return Found(mass, note)
-
-
-@CAGE.figure("Cage mass centre, shift", "um", "from the axis of the sound cage")
-def cage_centre_shift(facts: CageFacts) -> float:
-    return float(np.linalg.norm(facts.mass[1]))
-
-
-@CAGE.figure("Cage modulus, warm", "GPa", "of a case with a cage.temperature")
-def cage_modulus(facts: CageFacts) -> Found | None:
+def _warm(facts: CageFacts) -> Found | None:
+    """The modulus of a cage whose temperature the case gives."""
     cage = facts.cage
     if cage.temperature is None:
         return None
@@ -97,41 +72,39 @@ def cage_modulus(facts: CageFacts) -> Found | None:
     return Found(warm, note)
 
 
-PINCH = Table[CageFacts](CAGE.section)
+def _pinch(facts: CageFacts) -> Found | None:
+    pockets = f"pockets {', '.join(map(str, facts.pinched))}"
+    return Found(facts.pinch_force, pockets) if facts.pinched else None
 
 
-@PINCH.figure(
-    "Pinch force at the start", "N",
-    "of elements that a deformed pocket squeezes when assembled", CONVERGENCE,
-)  # fmt: skip
-def pinch_force(facts: CageFacts) -> Found | None:
-    if not facts.pinched:
-        return None
-    return Found(facts.pinch_force, f"pockets {', '.join(map(str, facts.pinched))}")
-
-
-MODES = Table[CageFacts](CAGE.section, needs=FLEXIBLE)
-
-
-@MODES.figure("Cage modes", "", "number of modal coordinates")
-def mode_count(facts: CageFacts) -> Found:
-    return Found(facts.modes.size, f"table: {facts.table}")
-
-
-@MODES.figure("Cage modes, first frequency", "Hz", "of the free cage", CONVERGENCE)
-def first_frequency(facts: CageFacts) -> float:
-    return facts.modes.frequencies[0]
-
-
-@MODES.figure(
-    "Pockets' local coupling cut", "%",
-    "of a push's deflection of its own pocket, what others would feel of it beyond the modes",
-)  # fmt: skip
-def far_coupling(facts: CageFacts) -> Found | None:
+def _far(facts: CageFacts) -> Found | None:
     residual = facts.modes.residual
     return None if residual is None else Found(residual.far_coupling, _FAR)
 
 
+# fmt: off
+CAGE = Table[CageFacts]("Cage")
+CAGE.add("cage_mass", "Cage mass", "g", "with the mass that unbalances it", "convergence",
+         take=lambda facts: Found(facts.mass[0], facts.mass[2]))
+CAGE.add("cage_centre_shift", "Cage mass centre, shift", "um", "from the axis of the sound cage",
+         take=lambda facts: float(np.linalg.norm(facts.mass[1])))
+CAGE.add("cage_modulus", "Cage modulus, warm", "GPa", "of a case with a cage.temperature",
+         take=_warm)
+PINCH = Table[CageFacts](CAGE.section)
+PINCH.add("pinch_force", "Pinch force at the start", "N",
+          "of elements that a deformed pocket squeezes when assembled", "convergence", take=_pinch)
+MODES = Table[CageFacts](CAGE.section, "flexible cage")
+MODES.add("mode_count", "Cage modes", "", "number of modal coordinates",
+          take=lambda facts: Found(facts.modes.size, f"table: {facts.table}"))
+MODES.add("first_frequency", "Cage modes, first frequency", "Hz", "of the free cage",
+          "convergence", take=lambda facts: facts.modes.frequencies[0])
+MODES.add("far_coupling", "Pockets' local coupling cut", "%",
+          "of a push's deflection of its own pocket, what others would feel of it beyond the modes",
+          take=_far)
+# fmt: on
+
+
 def cage_rows(facts: CageFacts) -> tuple[Row, ...]:
     """The section of the cage."""
-    return (*CAGE.rows(facts), *MODES.rows(facts), *PINCH.rows(facts))
+    modes = MODES.rows(facts, FLEXIBLE if facts.basis is None else "")
+    return (*CAGE.rows(facts), *modes, *PINCH.rows(facts))

@@ -11,13 +11,13 @@ import numpy as np
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.film import Oil
 from flexcage.results import metrics
-from flexcage.results.figures.figure import Facts, Found, Table
+from flexcage.results.figures.figure import Found, Table
 from flexcage.results.figures.part import Part
 from flexcage.results.film import film_thickness
 
 
 @dataclass(frozen=True, eq=False)
-class Lubricated(Facts):
+class Lubricated:
     """A part of a run, with the bearing and the oil that make its films."""
 
     part: Part
@@ -46,15 +46,11 @@ def _least(race: str, facts: Lubricated) -> float | None:
     return float(np.nanmin(facts.films[race][1])) if race in facts.films else None
 
 
+# fmt: off
 FILM = Table[Lubricated]("Lubricant's film")
-
 for _race in ("inner", "outer"):
-    FILM.add(
-        f"film_{_race}", f"Film, {_race} race, mean", "um",
-        "middle of loaded elements' contacts; isothermal, fully flooded",
-        take=partial(_mean, _race),
-    )  # fmt: skip
-    FILM.add(
-        f"film_least_{_race}", f"Film, {_race} race, least", "um", "of loaded elements",
-        take=partial(_least, _race),
-    )  # fmt: skip
+    FILM.add(f"film_{_race}", f"Film, {_race} race, mean", "um",
+             "middle of loaded elements' contacts; isothermal, fully flooded",
+             take=partial(_mean, _race))
+    FILM.add(f"film_least_{_race}", f"Film, {_race} race, least", "um", "of loaded elements",
+             take=partial(_least, _race))

@@ -13,7 +13,7 @@ from flexcage.core.errors import InputError
 from flexcage.results import metrics
 from flexcage.results.audit import EnergyAudit, energy_audit
 from flexcage.results.contact_activity import ContactSeries, contact_series
-from flexcage.results.figures.figure import CAGED, FULL, Facts, Figure, Table
+from flexcage.results.figures.figure import CAGED, FULL, Figure, Table
 from flexcage.results.metrics import BallRolling, BearingNumbers, CageSpeed, SlipRange
 from flexcage.results.registry import NEIGHBOURS
 from flexcage.results.statistics import Record, Windows, element_passes
@@ -40,7 +40,7 @@ class OwnFigures:
 
 
 @dataclass(frozen=True, eq=False)
-class Part(Facts):
+class Part:
     """A run, whose first ``settle`` of its duration figures leave out, and its bearing.
 
     ``events`` are the run's contacts that closed or opened; without them contacts are counted at
@@ -54,12 +54,15 @@ class Part(Facts):
     events: xarray.Dataset | None = None
 
     @cached_property
-    def words(self) -> Mapping[str, str]:  # type: ignore[override]
+    def words(self) -> Mapping[str, str]:
+        """Words of titles."""
         walls = "Pocket faces" if self.caged and self.ds.sizes["face"] > 1 else "Pockets"
         return {"element": self.element, "Element": self.element.capitalize(), "Faces": walls}
 
-    def has(self, need: str) -> bool:
-        return {CAGED: self.caged, FULL: not self.caged}[need]
+    @property
+    def lacks(self) -> str:
+        """What it has not of what figures need."""
+        return FULL if self.caged else CAGED
 
     @cached_property
     def ds(self) -> xarray.Dataset:
@@ -90,10 +93,6 @@ class Part(Facts):
     def pass_peak(self) -> str:
         """What the peak of a pass is, in words."""
         return pass_peak(self.element)
-
-    def at(self, sample: int) -> str:
-        """The time of a sample of the settled part, in words."""
-        return f"t = {float(self.ds['time'][sample]) * 1e3:.3f} ms"
 
     @cached_property
     def windows(self) -> Windows:
@@ -238,22 +237,14 @@ class Part(Facts):
         return self.ds[NEIGHBOURS].transpose("time", "element").values.astype(float)
 
     @cached_property
-    def drive(self) -> np.ndarray:
-        """Power of the drive over time [W]."""
+    def drive(self) -> np.ndarray | None:
+        """Power of the drive over time [W]; None of a run that does not record it."""
+        if "work" not in self.ds:
+            return None
         return np.gradient(self.ds["work"].sel(channel="drive").values, self.ds["time"].values)
 
-    @cached_property
-    def inner_place(self) -> np.ndarray:
-        """Place of the inner ring's centre, axis by axis (3, time) [m]."""
-        return self.ds["inner_position"].transpose("axis", "time").values
-
-    @cached_property
-    def outer_place(self) -> np.ndarray:
-        """That of the outer ring's."""
-        return self.ds["outer_position"].transpose("axis", "time").values
-
-    def pressed(self, name: str) -> np.ndarray:
-        """Force or moment on the outer ring, axis by axis (3, time) [N, N m]."""
+    def of_axes(self, name: str) -> np.ndarray:
+        """A vector over time, axis by axis (3, time)."""
         return self.ds[name].transpose("axis", "time").values.astype(float)
 
     @cached_property

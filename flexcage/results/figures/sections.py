@@ -27,21 +27,24 @@ def summarise(part: Part) -> Summary:
         for key, figure in FIGURES.items()
         if SETTLING in figure.marks and records.get(key) is not None
     }
-    first = Section(STATISTICS.section, STATISTICS.rows(Taken(part, watched)))
+    first = Section(STATISTICS.section, STATISTICS.rows(Taken(part, watched), words=part.words))
     return Summary((first, *sections))
 
 
 def _sections(part: Part) -> Iterator[Section]:
-    own = part.of_family
+    own, facts = part.of_family, (part, part.lacks, part.words)
 
     def of(table: Table[Part]) -> Section:
         """A section, which the family's own figures close."""
         added = [figure for figure in own.figures.values() if figure.section == table.section]
-        return Section(table.section, (*table.rows(part), *rows_of(added, part)))
+        return Section(table.section, (*table.rows(*facts), *rows_of(added, *facts)))
 
     yield of(SPEEDS)
-    yield Section(own.slip_title, rows_of([FIGURES[key] for key in own.slip], part))
-    yield from map(of, (MOTION, FORCES, CONTACTS))
+    yield Section(own.slip_title, rows_of([FIGURES[key] for key in own.slip], *facts))
+    if part.caged:
+        yield of(MOTION)
+    yield of(FORCES)
+    yield of(CONTACTS)
     if NEIGHBOURS in part.run:
         yield of(NEXT)
     yield of(INNER)
