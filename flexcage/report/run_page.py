@@ -36,6 +36,7 @@ from flexcage.report.tables import (
 )
 from flexcage.results import metrics
 from flexcage.results.figures.figure import LARGE, STATISTIC
+from flexcage.results.figures.own import own_figures
 from flexcage.results.figures.table import FIGURES, marked
 from flexcage.results.metrics import BearingNumbers
 from flexcage.results.row import SHOWN, Row
@@ -154,7 +155,9 @@ def _rounded(row: Row) -> str:
 
 
 def _without_margin(row: Row) -> str:
-    """Why a figure has no ±."""
+    """Why a figure has no ±; of a user's own, its note."""
+    if row.key in own_figures():
+        return row.brief_note
     if STATISTIC in FIGURES[row.key].marks:
         return "± not known: the run is too short"
     return "one instant"

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from math import isfinite, pi
 
 from flexcage.core.digits import texts_with_margin
+from flexcage.core.errors import InputError
 from flexcage.results.statistics import Record
 
 Value = float | int | str | bool | None
@@ -54,6 +55,17 @@ def resolution(shown: str) -> float:
     if shown.endswith("/h"):
         return 0.0
     return RESOLUTION.get(shown, RESOLUTION.get(SHOWN[shown][0], 0.0))
+
+
+def check_shown(what: str, name: str, shown: str) -> None:
+    """Raise InputError unless something called ``name`` is shown in a unit that there is."""
+    if shown not in SHOWN:
+        raise InputError(
+            f"The {what} '{name}' is shown in '{shown}', but should be in one of "
+            f'{", ".join(filter(None, SHOWN))}, or "" for none.',
+            where=name,
+            value=shown,
+        )
 
 
 def format_value(value: float, shown: str = "", margin: float | None = None) -> tuple[str, str]:

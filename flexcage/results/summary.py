@@ -122,6 +122,10 @@ class Summary:
                 place = k
         return replace(self, sections=(*self.sections[:place], new, *self.sections[place:]))
 
+    def with_warnings(self, warnings: Sequence[RunWarning]) -> Summary:
+        """A copy with these warnings."""
+        return replace(self, warnings=tuple(warnings))
+
     def text(self, width: int = 0) -> str:
         """The warnings, then an aligned table: label, value (right-aligned), margin, unit, note;
         in lines of at most ``width`` characters (0: as the terminal is wide)."""

@@ -30,6 +30,7 @@ from flexcage.results.audit import EXCEEDED, OF_CAGE, OF_DRIVE
 from flexcage.results.bootstrap import FEWEST
 from flexcage.results.edges import Edge
 from flexcage.results.elastic import ElasticShape, grown_into_ring, large_rotation
+from flexcage.results.figures.own import own_warnings
 from flexcage.results.figures.speeds import NO_DRIFT
 from flexcage.results.summary import Summary
 
@@ -435,6 +436,10 @@ def _elements_touch(o: Outcome) -> Iterator[RunWarning]:
         )
 
 
+def _own_figures(o: Outcome) -> Iterator[RunWarning]:
+    yield from own_warnings(o.summary)
+
+
 def _um(length: float) -> str:
     return f"{length * 1e6:.3g} um" if abs(length) < 1e-3 else f"{length * 1e3:.3g} mm"
 
@@ -454,6 +459,7 @@ AT_END: tuple[Callable[[Outcome], Iterator[RunWarning]], ...] = (
     _slip,
     _over_edge,
     _elements_touch,
+    _own_figures,
 )
 _OF_CAGE = (
     _yield, _thrown_off, _passes_ring, _large_rotation, _grown_into_ring, _elements_touch

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from typing import TYPE_CHECKING
 
 from flexcage.mesh.quality import report_mesh
@@ -79,7 +78,7 @@ def warned(summary: Summary, run: RunRecord) -> Summary:
         said=frozenset(warning.key for warning in known),
     )
     looked = CAGELESS_AT_END if case.cage is None else AT_END
-    return dataclasses.replace(summary, warnings=(*known, *warnings_of(looked, outcome)))
+    return summary.with_warnings((*known, *warnings_of(looked, outcome)))
 
 
 def timed(summary: Summary, run: RunRecord) -> Summary:

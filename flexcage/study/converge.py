@@ -35,9 +35,6 @@ log = logging.getLogger(__name__)
 
 _ORIGIN = "origin.json"  # beside a run: the flexcage that computed it
 
-#: Outputs compared, by their keys in the summary: statistics of the motion, and plain values.
-OUTPUTS = marked(CONVERGENCE)
-
 
 @dataclass(frozen=True)
 class Level:
@@ -221,7 +218,7 @@ def _compare(
         names.setdefault(step.case.hash, f"{step.axis} {step.name}")
     return Convergence(
         name=case.name,
-        own=tuple(own.row(k) for k in OUTPUTS if k in own) if isinstance(own, Summary) else (),
+        own=() if isinstance(own, str) else tuple(own.row(k) for k in _compared() if k in own),
         findings=tuple(findings),
         compared=compared,
         failures={
@@ -268,11 +265,16 @@ def _by_another(folder: Path) -> list[RunWarning]:
     return [RunWarning("version", sentence)]
 
 
+def _compared() -> tuple[str, ...]:
+    """Keys of the figures compared: statistics of the motion, and plain values."""
+    return marked(CONVERGENCE)
+
+
 def _findings(level: Level, finest: Level, figures: dict[str, Summary | str]) -> list[Finding]:
     here, best = figures[level.case.hash], figures[finest.case.hash]
     if isinstance(here, str) or isinstance(best, str):
         return []
-    pairs = [(here.row(k), best.row(k)) for k in OUTPUTS if k in here and k in best]
+    pairs = [(here.row(k), best.row(k)) for k in _compared() if k in here and k in best]
     return [
         Finding(
             axis=level.axis, level=level.name, finest=finest.name, output=a.key, label=a.label,

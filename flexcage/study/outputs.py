@@ -26,6 +26,7 @@ from flexcage.results.figures.figure import (
     TEXT,
     WEAR,
 )
+from flexcage.results.figures.own import own_figures
 from flexcage.results.figures.stress import (
     DAMAGE,
     RIVETS,
@@ -200,9 +201,10 @@ def never_negative(name: str) -> bool:
 
 
 def beyond_summary(names: tuple[str, ...]) -> tuple[str, ...]:
-    """Those among the outputs that a summary may not hold: reductions, ``LATE_FIGURES``, and those
-    of a user's own file."""
-    return tuple(n for n in names if is_reduction(n) or n in LATE_FIGURES or n in OWN)
+    """Those among the outputs that a summary may not hold: reductions, ``LATE_FIGURES``, and what a
+    user's own file adds."""
+    added = own_figures()
+    return tuple(n for n in names if is_reduction(n) or n in {*LATE_FIGURES, *OWN, *added})
 
 
 def needs_stress(names: tuple[str, ...]) -> bool:
@@ -222,6 +224,7 @@ def lacking(beyond: tuple[str, ...], figures: Collection[str]) -> tuple[str, ...
         and not (rigid and _needs_flexible(n))
         and not (not caged and _needs_cage(n))
         and not (apart and _of_neighbours(n))
+        and not (caged and n in FIGURES and FIGURES[n].needs == FULL)
     )  # fmt: skip
 
 
@@ -458,5 +461,7 @@ def late_figures(run: Run, names: tuple[str, ...]) -> dict[str, Figure]:
     found: dict[str, Figure] = {}
     for compute in dict.fromkeys(LATE_FIGURES[name] for name in names if name in LATE_FIGURES):
         found |= compute(run)
+    if not own_figures().keys().isdisjoint(names):
+        found |= _figures_in(row for row in run.summary_at_end if row.key in own_figures())
     found |= {name: Figure(*values) for name, values in own_values(run, names).items()}
     return found | {name: parse_reduction(name).of(run) for name in names if is_reduction(name)}

@@ -9,6 +9,7 @@ from flexcage.results.figures.energy import ENERGY
 from flexcage.results.figures.figure import SETTLING, Figure, Table, rows_of
 from flexcage.results.figures.forces import CONTACTS, FORCES, NEXT
 from flexcage.results.figures.motion import MOTION
+from flexcage.results.figures.own import SECTION, own_rows
 from flexcage.results.figures.part import Part
 from flexcage.results.figures.rings import INNER, OUTER, constraint_rows
 from flexcage.results.figures.speeds import SPEEDS, STATISTICS, Taken
@@ -53,3 +54,4 @@ def _sections(part: Part) -> Iterator[Section]:
     yield Section("Constraints", tuple(constraint_rows(part)))
     if "energy" in part.run and "work" in part.run:
         yield of(ENERGY)
+    yield Section(SECTION, own_rows(part))
