@@ -38,8 +38,8 @@ from flexcage.results import metrics
 from flexcage.results.figures.figure import LARGE, STATISTIC
 from flexcage.results.figures.own import own_figures
 from flexcage.results.figures.table import FIGURES, marked
-from flexcage.results.metrics import BearingNumbers
 from flexcage.results.row import SHOWN, Row
+from flexcage.results.slip import BearingNumbers
 from flexcage.results.summary import Summary
 
 if TYPE_CHECKING:

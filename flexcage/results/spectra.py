@@ -18,8 +18,8 @@ from flexcage.core.errors import InputError
 from flexcage.results import metrics
 from flexcage.results.evenly import FEWEST, grid_of, series
 from flexcage.results.figures.table import FIGURES
-from flexcage.results.metrics import BearingNumbers
 from flexcage.results.registry import NEIGHBOURS
+from flexcage.results.slip import BearingNumbers, at_own_angles, element_spin
 
 if TYPE_CHECKING:
     import xarray
@@ -126,8 +126,8 @@ def run_frequencies(
     ds: xarray.Dataset, bearing: BearingNumbers, *, own: bool = True
 ) -> dict[str, float]:
     """The bearing's frequencies [Hz] by name at the run's mean inner speed: of a ball bearing, at
-    its ``own`` mean contact angles (``metrics.at_own_angles``), or at the nominal one."""
-    own_or_nominal = metrics.at_own_angles(ds, bearing) if own else bearing.nominal
+    its ``own`` mean contact angles (``at_own_angles``), or at the nominal one."""
+    own_or_nominal = at_own_angles(ds, bearing) if own else bearing.nominal
     return bearing_frequencies(own_or_nominal, float(ds["inner_speed"].mean()))
 
 
@@ -136,7 +136,7 @@ def own_frequencies(ds: xarray.Dataset, bearing: BearingNumbers) -> dict[str, fl
     the cage, the inner ring, and the elements about their own axes relative to the cage. The outer
     ring stands."""
     cage, inner = float(metrics.carrier_speed(ds).mean()), float(ds["inner_speed"].mean())
-    spin = abs(float(metrics.element_spin(ds).mean()))
+    spin = abs(float(element_spin(ds).mean()))
     speeds = {
         "FTF": abs(cage),
         "shaft": abs(inner),

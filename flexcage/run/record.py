@@ -23,7 +23,8 @@ from flexcage.modes.reduction import CageReduction
 from flexcage.modes.table import ModeTable
 from flexcage.results.edges import Edge, groove_edges
 from flexcage.results.film import film_thickness
-from flexcage.results.metrics import BearingNumbers, settled
+from flexcage.results.metrics import settled
+from flexcage.results.slip import BearingNumbers
 from flexcage.results.statistics import element_passes
 from flexcage.results.store import MemoryRunStore
 from flexcage.solve.contract import Effort

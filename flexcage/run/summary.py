@@ -14,10 +14,11 @@ from flexcage.results.figures.part import Part
 from flexcage.results.figures.sections import summarise
 from flexcage.results.figures.stress import RIVETS, stress_rows
 from flexcage.results.figures.table import FIGURES
-from flexcage.results.metrics import SlipRange
 from flexcage.results.row import Row
+from flexcage.results.slip import SlipRange
 from flexcage.results.summary import Summary
-from flexcage.results.warnings import AT_END, CAGELESS_AT_END, Outcome, from_attrs, warnings_of
+from flexcage.results.warnings import from_attrs, warnings_of
+from flexcage.results.warnings_at_end import AT_END, CAGELESS_AT_END, Outcome
 from flexcage.run.elastic import elastic_shape
 from flexcage.run.folder import seam_warnings
 

@@ -17,7 +17,8 @@ from flexcage.core.timing import Stages
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.reduction import CageReduction
 from flexcage.results.figures.stress import Stressed
-from flexcage.results.metrics import BearingNumbers, carrier_angle, element, settled
+from flexcage.results.metrics import carrier_angle, element, settled
+from flexcage.results.slip import BearingNumbers
 from flexcage.results.statistics import element_passes
 from flexcage.results.store import MemoryRunStore
 from flexcage.stress.between import Between

@@ -11,8 +11,8 @@ from flexcage import bearings
 from flexcage.core.wings import FAMILIES
 from flexcage.results.figures.part import OwnFigures
 from flexcage.results.figures.table import FIGURES
-from flexcage.results.metrics import ElementSpeed
 from flexcage.results.registry import LABELS, RUN_DIMS, TIME, VARIABLES, families_with, variables_of
+from flexcage.results.slip import ElementSpeed
 
 
 @pytest.mark.parametrize("family", FAMILIES.values(), ids=lambda family: family.name)

@@ -21,11 +21,12 @@ from flexcage.report.study_page import StudyAccount
 from flexcage.report.tables import number
 from flexcage.results.figures.part import Part
 from flexcage.results.figures.sections import summarise
-from flexcage.results.metrics import BearingNumbers
 from flexcage.results.registry import VARIABLES
 from flexcage.results.row import Row
+from flexcage.results.slip import BearingNumbers
 from flexcage.results.store import RunStore
-from flexcage.results.warnings import AT_END, Outcome, warnings_of
+from flexcage.results.warnings import warnings_of
+from flexcage.results.warnings_at_end import AT_END, Outcome
 
 NUMBERS = BearingNumbers(pitch_diameter=82.5e-3, element_diameter=8e-3, element_count=Z)
 PEAK = 40e6  # Pa, at one vertex of the cage

@@ -13,6 +13,7 @@ from flexcage.results import audit, metrics
 from flexcage.results.figures.part import Part
 from flexcage.results.figures.sections import summarise
 from flexcage.results.row import Row
+from flexcage.results.slip import SlipRange, cage_speed, element_spin
 from flexcage.results.spectra import amplitude_spectrum
 from flexcage.results.summary import Summary
 
@@ -20,7 +21,7 @@ RPM = np.pi / 30
 
 
 def test_cage_speed_and_slip(known_run, bearing):
-    speed = metrics.cage_speed(metrics.settled(known_run), bearing)
+    speed = cage_speed(metrics.settled(known_run), bearing)
     assert speed.epicyclic * 30 / np.pi == pytest.approx(2709.09, abs=0.01)
     assert speed.slip_ratio == pytest.approx(0.02, abs=1e-9)
     assert speed.revolutions == pytest.approx(3.0, abs=0.01)
@@ -50,14 +51,14 @@ def test_roller_slip_zones_apart(known_run, bearing):
 )
 def test_the_summary_says_what_loaded_slip_rests_on(known_run, bearing, law, note):
     """Loaded rollers of this run slide at 0.02 m/s."""
-    limits = metrics.SlipRange(law.creeps_below, law.rises_below)
+    limits = SlipRange(law.creeps_below, law.rises_below)
     told = summarise(Part(known_run, bearing, slip_range=limits)).row("slip_loaded").note
     assert re.search(note, told), told
 
 
 def test_unloaded_slip_is_noted_by_its_own_sliding(known_run, bearing):
     """Unloaded rollers of this run do not slide on their races; then most do at 0.8 m/s."""
-    limits = metrics.SlipRange(creep=0.1)
+    limits = SlipRange(creep=0.1)
     summary = summarise(Part(known_run, bearing, slip_range=limits))
     assert "unresolved" in summary.row("slip_unloaded").note
     sliding = known_run.copy(deep=True)
@@ -72,7 +73,7 @@ def test_unloaded_slip_is_noted_by_its_own_sliding(known_run, bearing):
 def test_a_bearing_that_stands_has_no_slip_ratio_and_no_note(known_run, bearing, speed):
     ds = known_run.copy(deep=True)
     ds["inner_speed"][:] = speed
-    summary = summarise(Part(ds, bearing, slip_range=metrics.SlipRange(creep=1.0)))
+    summary = summarise(Part(ds, bearing, slip_range=SlipRange(creep=1.0)))
     for key in ("cage_slip_ratio", "slip_loaded", "slip_unloaded"):
         row = summary.row(key)
         assert row.text == "-" and row.note == "" and row.margin is None
@@ -87,7 +88,7 @@ def test_a_roller_that_turns_backwards_spins_against_rolling(known_run, bearing,
     assert rolling["roller_spin"] == pytest.approx((19 * 0.95 + 3 * 0.99) / 22 * 27937.5 * RPM)
     assert rolling["roller_spin_ideal"] == pytest.approx(27937.5 * RPM)
     ds["element_omega"][:, 8, 0] *= -1.0
-    spin = metrics.element_spin(ds)
+    spin = element_spin(ds)
     assert float(spin.max("time")[8]) == pytest.approx(-0.95 * 27937.5 * RPM)
     assert float(spin.isel(element=7).min()) > 0.0
     assert summarise(Part(ds, bearing))["roller_spin"] < rolling["roller_spin"]
@@ -95,7 +96,7 @@ def test_a_roller_that_turns_backwards_spins_against_rolling(known_run, bearing,
 
 def test_a_family_that_is_not_known_is_not_taken_for_rollers(known_run):
     with pytest.raises(InputError, match="family 'needle', which is not known"):
-        metrics.element_spin(known_run.assign_attrs(family="needle"))
+        element_spin(known_run.assign_attrs(family="needle"))
 
 
 def test_mixing_frames_would_fake_slip(known_run, bearing):
@@ -292,9 +293,9 @@ def test_rounding_is_shown_as_nothing():
 
 
 def test_summary_prints_and_comes_back(known_run, bearing, tmp_path):
-    summary = summarise(
-        Part(known_run, bearing, slip_range=metrics.SlipRange(creep=0.05))
-    ).with_section("Solver", [Row("steps", "Steps", 12345), Row("wall", "Wall time", 1.5, "s")])
+    summary = summarise(Part(known_run, bearing, slip_range=SlipRange(creep=0.05))).with_section(
+        "Solver", [Row("steps", "Steps", 12345), Row("wall", "Wall time", 1.5, "s")]
+    )
     text = summary.text()
     assert "unresolved" in text and "12,345" in text and re.search(r" 2,709\.1 +rpm", text)
     assert "95 % interval" in text and re.search(r"Pocket force, mean +\S+ ± \S+ +N", text)

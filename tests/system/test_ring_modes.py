@@ -18,13 +18,13 @@ from flexcage.stages import assembled_start, bearing_in_motion, cage_mesh
 from flexcage.static import solve_static
 from flexcage.stress.rings import ring_field
 from flexcage.system.rings.low_modes import CARRIED, left_over, low_modes
+from flexcage.system.rings.modes import deflect, modes_of
 from flexcage.system.rings.moving import moving_rings
+from flexcage.system.rings.supports import press_supports
 from flexcage.system.spec import Load
 from flexcage.system.statics.options import AT_START
 from flexcage.system.statics.rings import Rings
 from flexcage.system.statics.solve import solve_bearing
-from flexcage.system.rings.supports import press_supports
-from flexcage.system.rings.modes import deflect, modes_of
 
 SEATS = {
     "N1013": ("arcs", (40.0, -40.0)),

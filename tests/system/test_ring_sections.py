@@ -9,7 +9,7 @@ import flexcage
 from flexcage.stages import assembled_start, bearing_in_motion, cage_mesh
 from flexcage.static import solve_static
 from flexcage.system.data import IN_CONTACTS, STRAIN
-from flexcage.system.rings.left_out import left_out, left_by_lands, left_by_ribs
+from flexcage.system.rings.left_out import left_by_lands, left_by_ribs, left_out
 from flexcage.system.statics.options import AT_START
 
 ARCS = {

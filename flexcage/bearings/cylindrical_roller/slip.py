@@ -5,13 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from flexcage.core.errors import InputError
-from flexcage.results.metrics import (
-    BearingNumbers,
-    ElementSpeed,
-    carrier_speed,
-    rolling_sense,
-    slip_of,
-)
+from flexcage.results.metrics import carrier_speed
+from flexcage.results.slip import BearingNumbers, ElementSpeed, rolling_sense, slip_of
 
 if TYPE_CHECKING:
     import xarray

@@ -10,10 +10,10 @@ import numpy as np
 
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.film import Oil
-from flexcage.results import metrics
 from flexcage.results.figures.figure import Found, Table
 from flexcage.results.figures.part import Part
 from flexcage.results.film import film_thickness
+from flexcage.results.slip import loaded_zone
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +29,7 @@ class Lubricated:
         """Films of loaded elements [m], central and least, by the races that have any."""
         ds = self.part.ds
         film = film_thickness(ds, self.bearing, self.oil).values
-        zone = metrics.loaded_zone(ds).transpose("time", ...).values
+        zone = loaded_zone(ds).transpose("time", ...).values
         found = {race: (film[:, :, k, 0][zone], film[:, :, k, 1][zone])
                  for k, race in enumerate(("inner", "outer"))}  # fmt: skip
         return {race: both for race, both in found.items() if np.isfinite(both[1]).any()}

@@ -7,7 +7,7 @@ import numpy as np
 from flexcage.results.contact_activity import EVENTS
 from flexcage.results.figures.figure import Found, Table
 from flexcage.results.figures.part import Part
-from flexcage.results.metrics import TOUCHING, gaps
+from flexcage.results.metrics import TOUCHING
 
 
 def _peak(part: Part) -> Found:
@@ -80,6 +80,15 @@ def _next_peak(part: Part) -> Found:
     return Found(float(force.max()), where if force.any() else "none touches")
 
 
+def _gaps(part: Part) -> np.ndarray:
+    """How far (time, element) [m] the next element is from every one, along the pitch circle; below
+    zero by what two are pressed together."""
+    psi = part.ds["element_position"].sel(cyl="psi").transpose("time", "element").values
+    ahead = np.diff(psi, axis=1, append=psi[:, :1] + 2.0 * np.pi)
+    half = 0.5 * part.bearing.pitch_diameter
+    return np.asarray(half * (ahead - 2.0 * np.arcsin(0.5 * part.bearing.element_diameter / half)))
+
+
 def _touches(part: Part) -> Found:
     if part.events is None:
         closed = part.neighbours > 0.0
@@ -111,7 +120,7 @@ NEXT.add("neighbour_contact", "{Element}s that touch the next one", "%",
 NEXT.add("largest_gap", "Largest gap between {element}s, mean", "mm",
          "between neighbours, along the pitch circle; mean over time",
          "full complement", "statistic",
-         take=lambda part: part.windows.mean(gaps(part.ds, part.bearing).max(axis=1)))
+         take=lambda part: part.windows.mean(_gaps(part).max(axis=1)))
 NEXT.add("element_touches", "{Element}s touching the next one", "",
          "times in the settled part that an element met the next one; with a cage shown if there "
          "are any", take=_touches)

@@ -14,8 +14,19 @@ from flexcage.results import metrics
 from flexcage.results.audit import EnergyAudit, energy_audit
 from flexcage.results.contact_activity import ContactSeries, contact_series
 from flexcage.results.figures.figure import CAGED, FULL, Figure, Table
-from flexcage.results.metrics import BallRolling, BearingNumbers, CageSpeed, SlipRange
 from flexcage.results.registry import NEIGHBOURS
+from flexcage.results.slip import (
+    BallRolling,
+    BearingNumbers,
+    CageSpeed,
+    SlipRange,
+    at_own_angles,
+    element_slip_ratio,
+    element_spin,
+    loaded_zone,
+    rolling_by_curvature,
+    speed_over,
+)
 from flexcage.results.statistics import Record, Windows, element_passes
 
 if TYPE_CHECKING:
@@ -115,7 +126,7 @@ class Part:
     @cached_property
     def own(self) -> BearingNumbers:
         """Its bearing, with the mean contact angles of loaded balls."""
-        return metrics.at_own_angles(self.whole, self.bearing)
+        return at_own_angles(self.whole, self.bearing)
 
     @cached_property
     def inner_speed(self) -> float:
@@ -125,7 +136,7 @@ class Part:
     @cached_property
     def speed(self) -> CageSpeed:
         """Mean speed of the cage over whole turns, or without one of the elements' orbits."""
-        return metrics.speed_over(self.whole, self.own)
+        return speed_over(self.whole, self.own)
 
     @cached_property
     def omega(self) -> np.ndarray:
@@ -140,19 +151,19 @@ class Part:
     @cached_property
     def rolling(self) -> BallRolling | None:
         """What the grooves' curvature makes of balls that roll."""
-        return metrics.rolling_by_curvature(self.whole, self.own)
+        return rolling_by_curvature(self.whole, self.own)
 
     @cached_property
     def spin(self) -> float:
         """Mean speed of the elements about their own axes [rad/s]."""
-        return float(metrics.element_spin(self.ds).mean())
+        return float(element_spin(self.ds).mean())
 
     # --- slip of elements, whole turns
 
     @cached_property
     def zone(self) -> np.ndarray:
         """Where the inner race carries an element (time, element)."""
-        return metrics.loaded_zone(self.whole).transpose("time", "element").values
+        return loaded_zone(self.whole).transpose("time", "element").values
 
     @cached_property
     def sliding(self) -> np.ndarray:
@@ -162,7 +173,7 @@ class Part:
     @cached_property
     def element_slip(self) -> tuple[Record, Record]:
         """Slip ratio of loaded and of unloaded elements, against pure rolling at ``own``."""
-        ratio = metrics.element_slip_ratio(self.whole, self.own)
+        ratio = element_slip_ratio(self.whole, self.own)
         return self.over(ratio, self.zone), self.over(ratio, ~self.zone)
 
     @cached_property

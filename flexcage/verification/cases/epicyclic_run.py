@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.results import metrics
+from flexcage.results.slip import cage_speed
 from flexcage.simulate import simulate
 from flexcage.system.start import find_start
 from flexcage.verification.known_answer import KnownAnswer, Row, Tolerance
@@ -33,7 +34,7 @@ def speed_rows(name: str, model: str, sense: float) -> Iterator[Row]:
     drive = {"drive.speed": f"{6000 * sense:g} rpm", "solver.duration": "20 ms"}
     run = simulate(n1013(ROLLING, drive, {"cage.model": model}))
     ds = metrics.settled(run.dataset, 0.3)
-    cage = sense * metrics.cage_speed(ds, run.numbers).mean
+    cage = sense * cage_speed(ds, run.numbers).mean
     spin = -sense * ds["element_omega"].values[:, :, 0]
     loaded = ds["race_force"].values[:, :, 0] > 1.0
     yield Row(f"{name}: cage", "rpm", CAGE / RPM, cage / RPM, ROLLS)
