@@ -16,10 +16,10 @@ def loaded(part):
 
 
 figure(
-    "my_axial_play", farthest, title="Cage, motion along the axis", unit="um", needs="a cage",
-    meaning="largest less least place of its centre", signed=False, marks=("brief", "large"),
+    "my_axial_play", farthest, title="Cage, motion along the axis", unit="um",
+    meaning="largest less least place of its centre", marks=("a cage", "size", "brief", "large"),
 )  # fmt: skip
 figure(
     "my_loaded", loaded, title="Elements above 1 N, mean", unit="",
-    meaning="number at an instant", signed=False, marks=("statistic",),
+    meaning="number at an instant", marks=("size", "statistic"),
 )  # fmt: skip

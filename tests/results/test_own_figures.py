@@ -93,7 +93,7 @@ def test_they_are_listed_and_compared(known_run, bearing):
 
 def test_what_a_run_does_not_have_is_left_out(known_run, bearing):
     add(take=lambda part: None)
-    add("my_gap", title="Gap", needs="full complement")
+    add("my_gap", title="Gap", marks="full complement")
     summary = summarise(Part(known_run, bearing))
     assert summary.row("my_number").text == "-" and "my_gap" not in summary
     assert own_warnings(summary) == ()
@@ -138,8 +138,8 @@ def test_a_function_that_fails_is_a_warning_and_the_run_goes_on(known_run, beari
         ({"title": ""}, "has the title '', but should have words"),
         ({"meaning": 3}, "has the meaning 3, but should have words"),
         ({"marks": "breif"}, "the mark 'breif', which is not known; the nearest.* 'brief'"),
-        ({"marks": ("rare",)}, "the mark 'rare', which is not known"),
-        ({"needs": "cage"}, "the need 'cage', which is not known; .*a cage"),
+        ({"marks": ("rare", 3)}, "has the mark 3, which is not known"),
+        ({"marks": ("cage",)}, "the mark 'cage', which is not known; the nearest.* 'a cage'"),
         ({"take": 1.0}, "needs a function of one value"),
         ({"take": lambda: 1.0}, "needs a function of one value, the settled part"),
         ({"take": lambda part, case: 1.0}, "needs a function of one value"),

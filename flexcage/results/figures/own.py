@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Collection, Mapping
 from math import isfinite
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
@@ -33,28 +33,27 @@ from flexcage.results.statistics import Record
 from flexcage.results.summary import Summary
 
 SECTION = "Own figures"
-WHAT, WARNING = "figure", "own_figure"
+WHAT, WARNING, SIZE = "figure", "own_figure", "size"
 #: Names that are taken by outputs of studies, which a user's file adds as well.
 OUTPUTS: dict[str, Any] = {}
-_MARKS = (STATISTIC, BRIEF, LARGE, SETTLING, CONVERGENCE)
+_NEEDS, _MARKS = (CAGED, FULL), (SIZE, STATISTIC, BRIEF, LARGE, SETTLING, CONVERGENCE)
 
 
 def register_figure(
     key: str, take: Callable[[Part], float | Record | Found | None], *, title: str, unit: str,
-    meaning: str, needs: Literal["", "a cage", "full complement"] = "", signed: bool = True,
-    marks: Collection[str] = (),
+    meaning: str, marks: Collection[str] = (),
 ) -> None:  # fmt: skip
     """Add a figure: summaries of all runs have it, with pages, comparisons and studies.
 
     ``take(part)`` gives its value in SI by the settled part of a run (``figures.part.Part``:
     ``part.ds`` is its dataset): a number, a statistic of ``part.windows``, which has an interval,
-    or None where a run has none. ``unit`` is the unit that it is shown in, "" for none. ``needs``
-    "a cage" leaves it out of runs without one. ``signed``: it may be below zero. ``marks`` are
-    "statistic" (it has an interval), "brief" (the terminal shows it after a run), "large" (so does
-    the head of a page), "settling" and "convergence" (it is compared between halves of a run, and
-    between levels of a study of convergence). Where ``take`` fails, or gives what is no number, the
-    run has a warning. What a study has stored is not computed again when ``take`` changes: give a
-    changed one another name.
+    or None where a run has none. ``unit`` is the unit that it is shown in, "" for none. ``marks``
+    say more: it needs "a cage" or a "full complement"; it is a "size", never below zero, or a
+    "statistic", with an interval; the terminal shows it after a run ("brief"), and a page at its
+    head ("large"); halves of a run are compared by it ("settling"), and levels of a study of
+    convergence ("convergence"). Where ``take`` fails, or gives what is no number, the run has a
+    warning. What a study has stored is not computed again when ``take`` changes: give a changed
+    one another name.
 
     Raises InputError for a name or a title that is taken, and for what is not as said here.
     """
@@ -67,22 +66,18 @@ def register_figure(
     for other in FIGURES.values():
         if other.title == title:
             raise _wrong(key, f"has the title '{title}', which is that of '{other.key}'")
-    _check_one_of(key, "need", [needs] if needs else [], (CAGED, FULL))
-    _check_one_of(key, "mark", [marks] if isinstance(marks, str) else marks, _MARKS)
+    given = {marks} if isinstance(marks, str) else set(marks)
+    for mark in sorted(given.difference(_NEEDS, _MARKS), key=str):
+        hint = did_you_mean(str(mark), (*_NEEDS, *_MARKS), "choose from")
+        raise _wrong(key, f"has the mark {mark!r}, which is not known; {hint}")
     try:
         inspect.signature(take).bind(None)
     except (TypeError, ValueError) as error:
         raise _wrong(key, f"needs a function of one value, the settled part ({error})") from error
-    kept = frozenset({*([marks] if isinstance(marks, str) else marks), *([SIGNED] * signed)})
+    needs = next((mark for mark in _NEEDS if mark in given), "")
+    kept = frozenset(given if SIZE in given else {*given, SIGNED}).difference(_NEEDS)
     pattern = title.replace("{", "{{").replace("}", "}}")
     FIGURES.add(key, Figure(key, pattern, unit, meaning, SECTION, take, needs, kept))
-
-
-def _check_one_of(key: str, what: str, given: Collection[str], known: Collection[str]) -> None:
-    for each in given:
-        if each not in known:
-            hint = did_you_mean(str(each), known, "choose from")
-            raise _wrong(key, f"has the {what} {each!r}, which is not known; {hint}")
 
 
 def _wrong(key: str, what: str) -> InputError:
