@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from flexcage.core import html
 from flexcage.core.warning import RunWarning
@@ -11,9 +10,6 @@ from flexcage.results.figures.own import with_own
 from flexcage.results.summary import SUMMARY, Summary
 from flexcage.run.record import RunRecord
 from flexcage.run.summary import part_of, summary_of, timed, warned, with_stress
-
-if TYPE_CHECKING:
-    pass
 
 
 class SummarisedRun(RunRecord):

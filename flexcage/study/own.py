@@ -11,7 +11,7 @@ from math import isfinite
 from typing import TYPE_CHECKING
 
 from flexcage.core.errors import InputError
-from flexcage.core.registry import add, check_free
+from flexcage.core.registry import add, check_free, check_word
 from flexcage.results.figures.own import OUTPUTS
 from flexcage.results.figures.table import FIGURES
 from flexcage.results.reductions import DERIVED
@@ -51,6 +51,7 @@ def register_outputs(compute: Compute, units: Mapping[str, str]) -> None:
     no figure is shown in.
     """
     for name, shown in units.items():
+        check_word(name, what=WHAT)
         for taken, what in ((FIGURES, "figure"), (VARIABLES, VARIABLE), (DERIVED, VARIABLE)):
             check_free(taken, name, what=what)
         check_shown(WHAT, name, shown)

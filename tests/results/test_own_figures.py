@@ -133,6 +133,7 @@ def test_a_function_that_fails_is_a_warning_and_the_run_goes_on(known_run, beari
     [
         ({"key": "cage_speed"}, "A figure 'cage_speed' exists already; choose another name"),
         ({"key": "my number"}, "must be one word"),
+        ({"key": "my_number.mean"}, "must be one word"),  # else a reduction of a variable
         ({"unit": "furlong"}, "The figure 'my_number' is shown in 'furlong', but should be in one"),
         ({"title": "Cage speed"}, "title 'Cage speed', which is that of 'cage_speed'"),
         ({"title": ""}, "has the title '', but should have words"),

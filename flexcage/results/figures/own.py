@@ -11,7 +11,7 @@ import numpy as np
 
 from flexcage.core.binding import did_you_mean
 from flexcage.core.errors import InputError, mistake_in
-from flexcage.core.registry import check_free
+from flexcage.core.registry import check_free, check_word
 from flexcage.core.warning import RunWarning
 from flexcage.results.figures.figure import (
     BRIEF,
@@ -57,6 +57,7 @@ def register_figure(
 
     Raises InputError for a name or a title that is taken, and for what is not as said here.
     """
+    check_word(key, what=WHAT)
     check_free(FIGURES, key, what=WHAT)
     check_free(OUTPUTS, key, what="study output")
     check_shown(WHAT, key, unit)
