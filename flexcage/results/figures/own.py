@@ -57,20 +57,12 @@ def register_figure(
 
     Raises InputError for a name or a title that is taken, and for what is not as said here.
     """
-    check_word(key, what=WHAT)
-    check_free(FIGURES, key, what=WHAT)
-    check_free(OUTPUTS, key, what="study output")
+    _check_free(key, title)
     check_shown(WHAT, key, unit)
     for name, text in (("title", title), ("meaning", meaning)):
         if not isinstance(text, str) or not text.strip():
             raise _wrong(key, f"has the {name} {text!r}, but should have words")
-    for other in FIGURES.values():
-        if other.title == title:
-            raise _wrong(key, f"has the title '{title}', which is that of '{other.key}'")
-    given = {marks} if isinstance(marks, str) else set(marks)
-    for mark in sorted(given.difference(_NEEDS, _MARKS), key=str):
-        hint = did_you_mean(str(mark), (*_NEEDS, *_MARKS), "choose from")
-        raise _wrong(key, f"has the mark {mark!r}, which is not known; {hint}")
+    given = _known(key, {marks} if isinstance(marks, str) else set(marks))
     try:
         inspect.signature(take).bind(None)
     except (TypeError, ValueError) as error:
@@ -79,6 +71,24 @@ def register_figure(
     kept = frozenset(given if SIZE in given else {*given, SIGNED}).difference(_NEEDS)
     pattern = title.replace("{", "{{").replace("}", "}}")
     FIGURES.add(key, Figure(key, pattern, unit, meaning, SECTION, take, needs, kept))
+
+
+def _check_free(key: str, title: str) -> None:
+    """Raise InputError for a name that is no word, and for a name or a title that is taken."""
+    check_word(key, what=WHAT)
+    check_free(FIGURES, key, what=WHAT)
+    check_free(OUTPUTS, key, what="study output")
+    for other in FIGURES.values():
+        if other.title == title:
+            raise _wrong(key, f"has the title '{title}', which is that of '{other.key}'")
+
+
+def _known(key: str, marks: set[str]) -> set[str]:
+    """These marks. InputError for one that is not known."""
+    for mark in sorted(marks.difference(_NEEDS, _MARKS), key=str):
+        hint = did_you_mean(str(mark), (*_NEEDS, *_MARKS), "choose from")
+        raise _wrong(key, f"has the mark {mark!r}, which is not known; {hint}")
+    return marks
 
 
 def _wrong(key: str, what: str) -> InputError:
