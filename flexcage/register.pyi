@@ -10,6 +10,7 @@ from flexcage.geometry.materials import register_material as material
 from flexcage.geometry.temperature import register_modulus_curve as modulus_curve
 from flexcage.modes.registry import register_basis as mode_basis
 from flexcage.render.album import register_picture as picture
+from flexcage.results.figures.own import register_figure as figure
 from flexcage.results.registry import Variable
 from flexcage.results.registry import register as variable
 from flexcage.solve.integrators import register_integrator as integrator
@@ -26,6 +27,7 @@ __all__ = [
     "cage_defect",
     "cage_type",
     "constraint",
+    "figure",
     "friction_law",
     "integrator",
     "known_answer",

@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from flexcage.geometry.ring import SectionsOf
     from flexcage.integrate.recording import Recording
     from flexcage.render.shapes import ShapesOf
-    from flexcage.results.figures import OwnFigures
-    from flexcage.results.metrics import ElementSpeed
+    from flexcage.results.figures.part import OwnFigures
     from flexcage.results.registry import OwnVariables
+    from flexcage.results.slip import ElementSpeed
     from flexcage.stress.rubbing import Rub
     from flexcage.system.motion import BendingMotion, Motion
     from flexcage.system.statics.elements import ElementsOf

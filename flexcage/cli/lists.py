@@ -53,9 +53,9 @@ def variables_command(args: argparse.Namespace) -> int:
 
 def figures_command(args: argparse.Namespace) -> int:
     """flexcage figures [TEXT]: what a summary holds, and a study may ask for."""
-    from flexcage.results import known
+    from flexcage.results.figures import table
 
-    return _show([known.listing(args.wanted)], args, known.PAGE)
+    return _show([table.listing(args.wanted)], args, table.PAGE)
 
 
 def _show(listings: Iterable[Listing], args: argparse.Namespace, page: str) -> int:

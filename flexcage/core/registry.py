@@ -69,6 +69,16 @@ def source_of(name: str) -> str:
     return _sources.get(name, "")
 
 
+def check_word(name: str, *, what: str) -> None:
+    """Raise InputError unless ``name`` is one word of letters, digits and '_'."""
+    if not isinstance(name, str) or not re.fullmatch(r"\w+", name, re.ASCII):
+        raise InputError(
+            f"The name of a {what} is {name!r}, but must be one word of letters, digits and '_'.",
+            where=what,
+            value=name,
+        )
+
+
 def check_free(table: Mapping[str, Any], name: str, *, what: str) -> None:
     """Raise InputError unless ``name`` is a word that the table does not hold yet."""
     if not isinstance(name, str) or not _NAME.fullmatch(name):

@@ -84,6 +84,11 @@ class Parts(Mapping[str, P], Generic[P]):
         found = {k: v for member in self.wing.values() for k, v in self.listed(member).items()}
         return {**self.common, **found, **self._added}
 
+    @property
+    def added(self) -> Mapping[str, P]:
+        """A user's own."""
+        return self._added
+
     def owners(self, name: str) -> tuple[str, ...]:
         """Names of the members that list a part; none if it is common or a user's own."""
         return tuple(m.name for m in self.wing.values() if name in self.listed(m))

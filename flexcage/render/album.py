@@ -26,8 +26,9 @@ from flexcage.modes.basis import ModeBasis
 from flexcage.render import sheet
 from flexcage.render.look import Look
 from flexcage.results import spectra
-from flexcage.results.metrics import BearingNumbers, settled
+from flexcage.results.metrics import settled
 from flexcage.results.registry import NEIGHBOURS
+from flexcage.results.slip import BearingNumbers
 
 if TYPE_CHECKING:
     import xarray

@@ -13,9 +13,16 @@ from flexcage.core.errors import InputError
 from flexcage.render import sheet
 from flexcage.render.elements import shown_faces
 from flexcage.results import metrics
-from flexcage.results.known import KNOWN
-from flexcage.results.metrics import BearingNumbers
+from flexcage.results.figures.table import FIGURES
 from flexcage.results.registry import NEIGHBOURS
+from flexcage.results.slip import (
+    BearingNumbers,
+    at_own_angles,
+    loaded_zone,
+    rolling_sense,
+    speed_of,
+    touching,
+)
 from flexcage.stress.places import in_words
 
 if TYPE_CHECKING:
@@ -192,7 +199,7 @@ def histories(
     leave out is shaded.
     """
     if bearing is not None:
-        bearing = metrics.at_own_angles(metrics.settled(ds, settle), bearing)
+        bearing = at_own_angles(metrics.settled(ds, settle), bearing)
     beside = _pocket_panel if metrics.caged(ds) else _neighbour_panel
     panels: list[Callable[..., None]] = [_speed_panel, beside]
     if drive_varies(ds, loads):
@@ -281,8 +288,8 @@ def _speed_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, *, bearing, **_: An
 def carrier_title(ds: xarray.Dataset) -> str:
     """Title of the speed of what goes round with the elements."""
     if metrics.caged(ds):
-        return KNOWN["cage_speed"].title
-    return KNOWN["orbital_speed"].titled(Element=metrics.element(ds).capitalize())
+        return FIGURES["cage_speed"].title
+    return FIGURES["orbital_speed"].titled(Element=metrics.element(ds).capitalize())
 
 
 def _neighbour_panel(ax: Any, t: np.ndarray, ds: xarray.Dataset, **_: Any) -> None:
@@ -340,7 +347,7 @@ def _stress_panel(
 def _spin_panel(
     ax: Any, t: np.ndarray, ds: xarray.Dataset, *, bearing, element: int, **_: Any
 ) -> None:
-    own = metrics.speed_of(ds)
+    own = speed_of(ds)
     _element_speed(ax, t, ds, own.spin(ds).values * RPM, element)
     if bearing is not None:
         ideal = _rolling(ds, own.rolling(bearing.kinematics(1.0)))
@@ -351,7 +358,7 @@ def _spin_panel(
 def _rolling(ds: xarray.Dataset, unit: float) -> xarray.DataArray:
     """Speed of rolling [rpm] in its own sense; ``unit`` is the speed at 1 rad/s of the inner
     ring."""
-    return metrics.rolling_sense(ds) * unit * ds["inner_speed"] * RPM
+    return rolling_sense(ds) * unit * ds["inner_speed"] * RPM
 
 
 def _element_speed(
@@ -361,7 +368,7 @@ def _element_speed(
     one = metrics.element(ds)
     ax.fill_between(t, speed.min(axis=1), speed.max(axis=1), color="#cfd4da", lw=0, label="all")
     ax.plot(t, speed[:, element], color=sheet.BLUE, label=f"{one} {element}")
-    loaded = metrics.loaded_zone(ds).transpose("time", "element").values[:, element]
+    loaded = loaded_zone(ds).transpose("time", "element").values[:, element]
     if loaded.any():
         ax.plot(
             t,
@@ -389,9 +396,9 @@ def _race_bands(
     ax: Any, t: np.ndarray, ds: xarray.Dataset, of: xarray.DataArray, element: int
 ) -> None:
     """Values ``of`` (time, element, race) of elements that touch: bands of all, lines of one."""
-    one, touching = metrics.element(ds), metrics.touching(ds, of)
+    one, touched = metrics.element(ds), touching(ds, of)
     for race, colour in (("inner", sheet.BLUE), ("outer", sheet.ORANGE)):
-        values = touching.sel(race=race).transpose("time", "element")
+        values = touched.sel(race=race).transpose("time", "element")
         low, high = values.min("element"), values.max("element")
         ax.fill_between(t, low, high, color=colour, alpha=0.25, lw=0, label=f"{race} race, all")
         own = values.isel(element=element)

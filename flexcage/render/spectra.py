@@ -12,7 +12,7 @@ import numpy as np
 
 from flexcage.render import sheet
 from flexcage.results import metrics
-from flexcage.results.metrics import BearingNumbers
+from flexcage.results.slip import BearingNumbers, at_own_angles
 from flexcage.results.spectra import (
     APART,
     SIGNALS,
@@ -46,12 +46,12 @@ def spectra_picture(
     """Amplitude spectral densities of a run's signals over frequency, one panel a signal.
 
     The bearing's frequencies without slip stand at the run's mean inner speed and, of balls, mean
-    contact angles (``metrics.at_own_angles``), those that its
+    contact angles (``at_own_angles``), those that its
     length sets apart from the mean. ``settle`` leaves the start out. Raises InputError for a run
     too short for any of them.
     """
     part = metrics.settled(ds, settle)
-    bearing = metrics.at_own_angles(part, bearing)
+    bearing = at_own_angles(part, bearing)
     resolution = run_resolution(part, bearing)
     lines = run_frequencies(part, bearing)
     marked = {name: f for name, f in lines.items() if f >= APART * resolution}

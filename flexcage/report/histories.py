@@ -22,13 +22,14 @@ from flexcage.report.thinning import thinned
 from flexcage.results import metrics
 from flexcage.results.audit import imbalance
 from flexcage.results.registry import NEIGHBOURS
+from flexcage.results.slip import at_own_angles, loaded_zone, rolling_sense, speed_of, touching
 from flexcage.stress.places import in_words
 
 if TYPE_CHECKING:
     import xarray
 
     from flexcage.render.album import Scene
-    from flexcage.results.metrics import BearingNumbers
+    from flexcage.results.slip import BearingNumbers
 
 RPM = 30.0 / pi
 TIME = "time [ms]"
@@ -40,7 +41,7 @@ def history_charts(scene: Scene, numbers: BearingNumbers) -> list[Chart]:
     """Charts over time of a run, and the orbit of its cage's centre: what the pictures of the
     histories and of the orbit show."""
     ds = scene.dataset
-    numbers = metrics.at_own_angles(metrics.settled(ds, scene.settle), numbers)
+    numbers = at_own_angles(metrics.settled(ds, scene.settle), numbers)
     beside = _pocket_force(ds) if metrics.caged(ds) else _neighbour_force(ds)
     charts = [_carrier_speed(ds, numbers), beside]
     if drive_varies(ds, scene.loads):
@@ -114,7 +115,7 @@ def _root_stress(scene: Scene) -> Chart:
 
 def _element_speed(scene: Scene, numbers: BearingNumbers) -> Chart:
     ds = scene.dataset
-    own = metrics.speed_of(ds)
+    own = speed_of(ds)
     ideal = _rolling(ds, own.rolling(numbers.kinematics(1.0)))
     figure = _speeds(f"{own.axis} [rpm]", scene, own.spin(ds).values, ideal)
     return Chart(own.title, [("", figure)])
@@ -123,7 +124,7 @@ def _element_speed(scene: Scene, numbers: BearingNumbers) -> Chart:
 def _rolling(ds: xarray.Dataset, unit: float) -> np.ndarray:
     """Speed of rolling [rad/s] in its own sense, (time,); ``unit`` is that at 1 rad/s of the inner
     ring."""
-    return np.asarray(metrics.rolling_sense(ds) * unit * ds["inner_speed"].values)
+    return np.asarray(rolling_sense(ds) * unit * ds["inner_speed"].values)
 
 
 def _speeds(title: str, scene: Scene, speed: np.ndarray, ideal: np.ndarray) -> Any:
@@ -134,7 +135,7 @@ def _speeds(title: str, scene: Scene, speed: np.ndarray, ideal: np.ndarray) -> A
     figure = new_figure(TIME, title)
     add_band(figure, _ms(ds), speed.min(axis=1), speed.max(axis=1), f"all {one}s", _WASH)
     add_curve(figure, _ms(ds), speed[:, own], f"{one} {own}", color=BLUE)
-    loaded = metrics.loaded_zone(ds).transpose("time", "element").values[:, own]
+    loaded = loaded_zone(ds).transpose("time", "element").values[:, own]
     if loaded.any():
         inside = np.where(loaded, speed[:, own], np.nan)
         add_curve(figure, _ms(ds), inside, "in the loaded zone", color=ORANGE, width=2.4)
@@ -155,10 +156,10 @@ def _contact_angles(scene: Scene) -> Chart:
 def _by_race(scene: Scene, of: xarray.DataArray, title: str) -> Any:
     """Values ``of`` (time, element, race) of elements that touch: bands of all, lines of one."""
     ds, own = scene.dataset, scene.followed
-    one, touching = metrics.element(ds), metrics.touching(ds, of)
+    one, touched = metrics.element(ds), touching(ds, of)
     figure = new_figure(TIME, title)
     for race, colour, wash in (("inner", BLUE, _WASH), ("outer", ORANGE, _SAND)):
-        values = touching.sel(race=race).transpose("time", "element")
+        values = touched.sel(race=race).transpose("time", "element")
         low, high = values.min("element").values, values.max("element").values
         add_band(figure, _ms(ds), low, high, f"{race} race, all {one}s", wash)
         line = values.isel(element=own).values

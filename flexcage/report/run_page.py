@@ -35,16 +35,19 @@ from flexcage.report.tables import (
     typeset,
 )
 from flexcage.results import metrics
-from flexcage.results.known import KNOWN, LARGE, STATISTIC, marked
-from flexcage.results.metrics import BearingNumbers
-from flexcage.results.summary import SHOWN, Row, Summary
+from flexcage.results.figures.figure import LARGE, STATISTIC
+from flexcage.results.figures.own import own_figures
+from flexcage.results.figures.table import FIGURES, marked
+from flexcage.results.row import SHOWN, Row
+from flexcage.results.slip import BearingNumbers
+from flexcage.results.summary import Summary
 
 if TYPE_CHECKING:
     from flexcage.render.album import StressPictures
 
 #: Sections of a summary that have their own place.
 _APART = _ENERGY, _SOLVER, _TIMES = tuple(
-    KNOWN[key].section for key in ("energy_audit", "steps", "wall_total")
+    FIGURES[key].section for key in ("energy_audit", "steps", "wall_total")
 )
 #: Pictures that the page shows as charts.
 _CHARTS = ("stress_peak", "histories", "orbit")
@@ -152,8 +155,10 @@ def _rounded(row: Row) -> str:
 
 
 def _without_margin(row: Row) -> str:
-    """Why a figure has no ±."""
-    if STATISTIC in KNOWN[row.key].marks:
+    """Why a figure has no ±; of a user's own, its note."""
+    if row.key in own_figures():
+        return row.brief_note
+    if STATISTIC in FIGURES[row.key].marks:
         return "± not known: the run is too short"
     return "one instant"
 
@@ -214,7 +219,7 @@ def _energy(account: RunAccount) -> Section:
     blocks: list[Block] = [rows_table(rows)]
     if {"energy", "work"} <= set(account.scene.dataset.data_vars):
         blocks.append(Charts([imbalance_chart(account.scene.dataset)]))
-    return Section(KNOWN["energy_audit"].title, blocks)
+    return Section(FIGURES["energy_audit"].title, blocks)
 
 
 def _sections(account: RunAccount, *titles: str) -> list:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from flexcage.report.blocks import Cell, Table
 from flexcage.results.audit import EXCEEDED, PASSED
-from flexcage.results.summary import Row, Section
+from flexcage.results.row import Row
+from flexcage.results.summary import Section
 
 if TYPE_CHECKING:
     import pandas

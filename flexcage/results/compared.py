@@ -12,8 +12,10 @@ from typing import Any
 from flexcage.core import html
 from flexcage.core.errors import InputError
 from flexcage.core.listing import aligned, wrapped
-from flexcage.results.known import BRIEF, KNOWN, TEXT, marked
-from flexcage.results.summary import Row, Summary, resolution
+from flexcage.results.figures.figure import BRIEF, TEXT
+from flexcage.results.figures.table import FIGURES, marked
+from flexcage.results.row import Row, resolution
+from flexcage.results.summary import Summary
 
 TEN = 10
 #: What a comparison leads with: the first ten of these that both runs have.
@@ -153,7 +155,7 @@ class Comparison:
     def leading(self) -> list[Pair]:
         """The ten figures that matter, of those that both runs have."""
         pairs = {pair.key: pair for pair in self if pair.numbers is not None}
-        brief = [key for key in marked(BRIEF) if TEXT not in KNOWN[key].marks]
+        brief = [key for key in marked(BRIEF) if TEXT not in FIGURES[key].marks]
         wanted = dict.fromkeys((*FIRST, *brief))
         chosen = [key for key in wanted if key in pairs][:TEN]
         return [pairs[key] for key in chosen]

@@ -51,6 +51,11 @@ class ContactSeries:
     source: str
 
     @property
+    def begun(self) -> np.ndarray:
+        """Contacts of all pockets that begin in a second, over time (time,) [Hz]."""
+        return self.onsets.sum(axis=1) / self.step
+
+    @property
     def activity(self) -> ContactActivity:
         """The figures of the whole series."""
         total = float(self.onsets.sum()) / (len(self.free) * self.step)

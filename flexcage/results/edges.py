@@ -10,7 +10,7 @@ import numpy as np
 
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.hertz import over_edge
-from flexcage.results.summary import Row, figure
+from flexcage.results.figures.figure import Found
 
 if TYPE_CHECKING:
     import xarray
@@ -45,14 +45,20 @@ class Edge:
         )
 
     @property
-    def row(self) -> Row:
+    def key(self) -> str:
+        """Its figure."""
+        return f"edge_{self.race}"
+
+    @property
+    def found(self) -> Found:
+        """Its angle, and where and when."""
         where = "over the edge: " if self.beyond > 0.0 else "within the groove by that much: "
         angle = round(degrees(self.angle), 3) + 0.0  # no dust about zero
         where += (
             f"{self.kind} {self.element}, {self.force:.4g} N at {angle:.4g} deg, "
             f"t = {self.time * 1e3:.3f} ms"
         )
-        return figure(f"edge_{self.race}", self.beyond, where)
+        return Found(self.beyond, where)
 
 
 def groove_edges(bearing: Bearing, ds: xarray.Dataset) -> list[Edge]:

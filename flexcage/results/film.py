@@ -9,8 +9,6 @@ import numpy as np
 
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.film import Oil
-from flexcage.results import metrics
-from flexcage.results.summary import Row, figure
 
 if TYPE_CHECKING:
     import xarray
@@ -82,20 +80,3 @@ def film_thickness(ds: xarray.Dataset, bearing: Bearing, oil: Oil) -> xarray.Dat
         attrs={"units": "m", "long_name": "thickness of the lubricant's film"},
         name="film_thickness",
     )  # fmt: skip
-
-
-def film_rows(ds: xarray.Dataset, bearing: Bearing, oil: Oil) -> list[Row]:
-    """Film at the races of loaded elements: mean in the middle of contacts, and the least."""
-    film = film_thickness(ds, bearing, oil).values
-    zone = metrics.loaded_zone(ds).transpose("time", ...).values
-    rows = []
-    for k, race in enumerate(_RACES):
-        central, least = film[:, :, k, 0][zone], film[:, :, k, 1][zone]
-        if not np.isfinite(least).any():
-            continue
-        rows += [
-            figure(f"film_{race}", float(np.nanmean(central)),
-                f"middle of loaded {metrics.element(ds)}s' contacts"),
-            figure(f"film_least_{race}", float(np.nanmin(least))),
-        ]  # fmt: skip
-    return rows

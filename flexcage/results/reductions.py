@@ -13,8 +13,8 @@ from scipy.special import stdtrit
 
 from flexcage.results import metrics
 from flexcage.results.bootstrap import CONFIDENCE
-from flexcage.results.metrics import BearingNumbers
 from flexcage.results.registry import TIME, Variable
+from flexcage.results.slip import BearingNumbers, element_slip_ratio
 from flexcage.results.statistics import Record, Windows
 
 if TYPE_CHECKING:
@@ -145,7 +145,7 @@ DERIVED: Mapping[str, Derived] = MappingProxyType(
                 "1",
                 "slip ratio (n_th - n)/n_th of an element, as the summary takes it",
             ),
-            metrics.element_slip_ratio,
+            element_slip_ratio,
         ),
         "cage_whirl_radius": Derived(
             Variable(

@@ -17,9 +17,9 @@ import numpy as np
 from flexcage.core.errors import InputError
 from flexcage.results import metrics
 from flexcage.results.evenly import FEWEST, grid_of, series
-from flexcage.results.known import KNOWN
-from flexcage.results.metrics import BearingNumbers
+from flexcage.results.figures.table import FIGURES
 from flexcage.results.registry import NEIGHBOURS
+from flexcage.results.slip import BearingNumbers, at_own_angles, element_spin
 
 if TYPE_CHECKING:
     import xarray
@@ -110,7 +110,7 @@ def _outer_envelope(ds: xarray.Dataset) -> xarray.DataArray | None:
 SIGNALS: Mapping[str, Signal] = MappingProxyType(
     {
         "cage_centre": Signal("Cage centre, from the outer ring's", _cage_centre),
-        "cage_speed": Signal(KNOWN["cage_speed"].title, _cage_speed),
+        "cage_speed": Signal(FIGURES["cage_speed"].title, _cage_speed),
         "pocket_forces": Signal("Sum of the pocket forces", _pocket_forces),
         "orbital_speed": Signal("Mean orbital speed of the elements", _orbital_speed),
         "neighbour_forces": Signal("Sum of the forces between neighbours", _neighbour_forces),
@@ -126,8 +126,8 @@ def run_frequencies(
     ds: xarray.Dataset, bearing: BearingNumbers, *, own: bool = True
 ) -> dict[str, float]:
     """The bearing's frequencies [Hz] by name at the run's mean inner speed: of a ball bearing, at
-    its ``own`` mean contact angles (``metrics.at_own_angles``), or at the nominal one."""
-    own_or_nominal = metrics.at_own_angles(ds, bearing) if own else bearing.nominal
+    its ``own`` mean contact angles (``at_own_angles``), or at the nominal one."""
+    own_or_nominal = at_own_angles(ds, bearing) if own else bearing.nominal
     return bearing_frequencies(own_or_nominal, float(ds["inner_speed"].mean()))
 
 
@@ -136,7 +136,7 @@ def own_frequencies(ds: xarray.Dataset, bearing: BearingNumbers) -> dict[str, fl
     the cage, the inner ring, and the elements about their own axes relative to the cage. The outer
     ring stands."""
     cage, inner = float(metrics.carrier_speed(ds).mean()), float(ds["inner_speed"].mean())
-    spin = abs(float(metrics.element_spin(ds).mean()))
+    spin = abs(float(element_spin(ds).mean()))
     speeds = {
         "FTF": abs(cage),
         "shaft": abs(inner),

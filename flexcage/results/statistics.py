@@ -15,7 +15,7 @@ import numpy as np
 
 from flexcage.results import metrics
 from flexcage.results.bootstrap import FEWEST, influences, margin
-from flexcage.results.metrics import BearingNumbers
+from flexcage.results.slip import BearingNumbers
 
 if TYPE_CHECKING:
     import xarray

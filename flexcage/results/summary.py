@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, replace
 from itertools import islice
-from math import isfinite, pi
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -14,159 +14,19 @@ import numpy as np
 
 from flexcage.core import html
 from flexcage.core.binding import near_names
-from flexcage.core.digits import texts_with_margin
 from flexcage.core.errors import InputError
 from flexcage.core.listing import PAGE, aligned, wrapped
 from flexcage.core.reading import json_of
 from flexcage.core.warning import RunWarning
 from flexcage.core.writing import replace as replace_file
-from flexcage.results.known import BRIEF, KNOWN, marked
+from flexcage.results.figures.figure import BRIEF
+from flexcage.results.figures.table import FIGURES, marked
+from flexcage.results.row import Row, Value
 from flexcage.results.statistics import Record
-
-Value = float | int | str | bool | None
-
-#: Units as shown: the SI unit of the value and the factor from it.
-SHOWN: dict[str, tuple[str, float]] = {
-    "": ("1", 1.0),
-    "rpm": ("rad/s", 30.0 / pi),
-    "%": ("1", 100.0),
-    "um": ("m", 1e6),
-    "mm": ("m", 1e3),
-    "m/s": ("m/s", 1.0),
-    "mrad": ("rad", 1e3),
-    "N": ("N", 1.0),
-    "N mm": ("N m", 1e3),
-    "W": ("W", 1.0),
-    "MPa": ("Pa", 1e-6),
-    "GPa": ("Pa", 1e-9),
-    "mJ": ("J", 1e3),
-    "s": ("s", 1.0),
-    "ms": ("s", 1e3),
-    "us": ("s", 1e6),
-    "deg": ("rad", 180.0 / pi),
-    "Hz": ("Hz", 1.0),
-    "kHz": ("Hz", 1e-3),
-    "h": ("s", 1.0 / 3600.0),
-    "1/h": ("1/s", 3600.0),
-    "um/h": ("m/s", 3.6e9),
-    "mm^3/h": ("m^3/s", 3.6e12),
-    "g": ("kg", 1e3),
-    "GB": ("B", 1e-9),
-}
-
-
-#: What counts as nothing, by the SI unit: what rounding and the solver's tolerance leave of a zero.
-#: Angles in degrees are of contacts: 1e-9 m across two grooves' centres, a few tenths of a
-#: millimetre apart. Rates by the hour have none: those of wear are small and real.
-RESOLUTION = {
-    "m": 1e-10, "rad": 1e-9, "rad/s": 1e-9, "m/s": 1e-9, "N": 1e-6, "N m": 1e-9, "Pa": 1.0,
-    "J": 1e-12, "W": 1e-9, "Hz": 1e-6, "1": 1e-12, "deg": 5e-6,
-}  # fmt: skip
-
-
-def resolution(shown: str) -> float:
-    """What counts as nothing of a value that is shown in this unit, in SI."""
-    if shown.endswith("/h"):
-        return 0.0
-    return RESOLUTION.get(shown, RESOLUTION.get(SHOWN[shown][0], 0.0))
-
-
-def format_value(value: float, shown: str = "", margin: float | None = None) -> tuple[str, str]:
-    """Texts of a value and of its margin, both in SI, in the unit ``shown``: "100", "± 150".
-
-    The second is empty where no margin is known. A value below what its unit resolves is "0".
-    """
-    nothing, factor = resolution(shown), SHOWN[shown][1]
-    value = 0.0 if abs(value) < nothing else value * factor
-    if margin is not None:
-        margin = 0.0 if margin < nothing else margin * factor
-    number, half = texts_with_margin(value, margin)
-    return number, f"± {half}" if half else ""
-
 
 _WORD = 16  # characters: a longer text is no figure, and stands in no column
 SUMMARY = "summary.json"  # in a run's folder
 _WARNINGS = "warnings"  # their key in a summary's JSON
-
-
-@dataclass(frozen=True)
-class Row:
-    """One figure: ``value`` in SI (or a text, a count); ``shown`` is the unit it is printed in.
-
-    ``margin`` is half the width of the value's 95 % interval, in SI; None where there is none.
-    ``record`` holds a statistic's windows, while the run is in memory. ``idle``: zero because the
-    bearing has nothing that makes it; kept for programs, and not printed.
-    """
-
-    key: str
-    label: str
-    value: Value
-    shown: str = ""
-    note: str = ""
-    margin: float | None = None
-    record: Record | None = field(default=None, repr=False, compare=False)
-    idle: bool = False
-
-    @classmethod
-    def of(
-        cls, key: str, label: str, record: Record, shown: str, note: str = "",
-        *, value: float | None = None, idle: bool = False,
-    ) -> Row:  # fmt: skip
-        """Row of a statistic: its value (unless given), its margin and its windows."""
-        figure = record.value if value is None else value
-        known = isfinite(figure) and isfinite(record.margin)
-        margin = record.margin if known else None
-        return cls(key, label, figure, shown, note, margin, record, idle)
-
-    @property
-    def unit(self) -> str:
-        return SHOWN[self.shown][0]
-
-    @property
-    def text(self) -> str:
-        """The value as printed, without its unit, with the digits that its margin leaves."""
-        v = self.value
-        if v is None or (isinstance(v, float) and not isfinite(v)):
-            return "-"
-        if isinstance(v, bool):
-            return "yes" if v else "no"
-        if isinstance(v, str):
-            return v
-        if isinstance(v, int) and not self.shown:
-            return f"{v:,}"
-        return format_value(float(v), self.shown, self.margin)[0]
-
-    @property
-    def margin_text(self) -> str:
-        """The margin as printed; nothing where there is none."""
-        if self.margin is None or not isinstance(self.value, (int, float)):
-            return ""
-        return format_value(float(self.value), self.shown, self.margin)[1]
-
-    @property
-    def brief_note(self) -> str:
-        """The note's first part, for where there is little room."""
-        return self.note.partition(";")[0]
-
-    @property
-    def full_text(self) -> str:
-        """Value, margin and unit, as a sentence or a key figure shows them: "100 ± 150 um"."""
-        return " ".join(filter(None, (self.text, self.margin_text, self.shown)))
-
-
-def figure(key: str, value: Value, note: str = "", *, idle: bool = False, **words: str) -> Row:
-    """The row of a known figure; ``words`` are those of its title."""
-    known = KNOWN[key]
-    return Row(key, known.titled(**words), value, known.shown, note, idle=idle)
-
-
-def statistic(
-    key: str, record: Record, note: str = "",
-    *, value: float | None = None, idle: bool = False, **words: str,
-) -> Row:  # fmt: skip
-    """The row of a known figure that is a statistic: its value (unless given) and its margin."""
-    known = KNOWN[key]
-    return Row.of(key, known.titled(**words), record, known.shown, note, value=value, idle=idle)
 
 
 @dataclass(frozen=True)
@@ -178,12 +38,6 @@ class Section:
     def shown(self) -> tuple[Row, ...]:
         """The rows that are printed."""
         return tuple(row for row in self.rows if not row.idle)
-
-
-def section_of(rows: Iterable[Row]) -> Section:
-    """Known figures that stand together, under the title that ``KNOWN`` has for the first."""
-    figures = tuple(rows)
-    return Section(KNOWN[figures[0].key].section, figures)
 
 
 def _cells(rows: Sequence[Row], *, brief: bool = False) -> list[Sequence[str]]:
@@ -249,12 +103,11 @@ class Summary:
         return any(row.key == key for row in self)
 
     def with_figures(self, rows: Sequence[Row], *, after: str = "") -> Summary:
-        """A copy with the section of these known figures (``section_of``), as ``with_section``;
-        without rows the summary itself."""
+        """A copy with the section of these figures, as ``FIGURES`` calls that of the first; without
+        rows the summary itself."""
         if not rows:
             return self
-        section = section_of(rows)
-        return self.with_section(section.title, section.rows, after=after)
+        return self.with_section(FIGURES[rows[0].key].section, rows, after=after)
 
     def with_section(self, title: str, rows: Sequence[Row], *, after: str = "") -> Summary:
         """A copy with one more section, behind that of the figure ``after`` or at the end, or with
@@ -268,6 +121,10 @@ class Summary:
             if any(row.key == after for row in section.rows):
                 place = k
         return replace(self, sections=(*self.sections[:place], new, *self.sections[place:]))
+
+    def with_warnings(self, warnings: Sequence[RunWarning]) -> Summary:
+        """A copy with these warnings."""
+        return replace(self, warnings=tuple(warnings))
 
     def text(self, width: int = 0) -> str:
         """The warnings, then an aligned table: label, value (right-aligned), margin, unit, note;

@@ -13,7 +13,8 @@ from flexcage.core.threads import one_blas_thread
 from flexcage.core.warning import RunWarning
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.reduction import CageReduction
-from flexcage.results.warnings import AT_START, Setup, of_statics, warnings_of
+from flexcage.results.warnings import warnings_of
+from flexcage.results.warnings_at_start import AT_START, Setup, of_statics
 from flexcage.stress.operators import von_mises
 from flexcage.stress.recovery import CageLoads
 from flexcage.stress.run_stress import recovery_of

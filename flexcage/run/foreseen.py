@@ -18,8 +18,8 @@ from flexcage.core.units import describe
 from flexcage.core.warning import RunWarning
 from flexcage.geometry.temperature import beyond_service
 from flexcage.results.bootstrap import FEWEST
-from flexcage.results.metrics import BearingNumbers
-from flexcage.results.warnings import LEAST_TURNS
+from flexcage.results.slip import BearingNumbers
+from flexcage.results.warnings_at_end import LEAST_TURNS
 from flexcage.system.bodies import speeds_over
 
 log = logging.getLogger(__name__)

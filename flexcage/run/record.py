@@ -23,10 +23,10 @@ from flexcage.modes.reduction import CageReduction
 from flexcage.modes.table import ModeTable
 from flexcage.results.edges import Edge, groove_edges
 from flexcage.results.film import film_thickness
-from flexcage.results.metrics import BearingNumbers, settled
+from flexcage.results.metrics import settled
+from flexcage.results.slip import BearingNumbers
 from flexcage.results.statistics import element_passes
 from flexcage.results.store import MemoryRunStore
-from flexcage.results.summary import Row
 from flexcage.solve.contract import Effort
 from flexcage.stages import bent_rings
 from flexcage.stress.fatigue import Fatigue
@@ -267,10 +267,6 @@ class RunRecord:
         with self.stages.progress(len(chosen), "VTU") as bar:
             series = frames(chosen, field_at, bar.advance)
             return write_series(folder, "cage", self.mesh.points, self.mesh.tets, series)
-
-    def stress_rows(self) -> list[Row]:
-        """Figures of the cage's stress; InputError for a rigid cage."""
-        return self.cage_stress.rows(element=self.case.bearing.element)
 
 
 def _si(value: float | str, unit: str, where: str) -> float:

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from flexcage.core import html
 from flexcage.core.warning import RunWarning
+from flexcage.results.figures.own import with_own
 from flexcage.results.summary import SUMMARY, Summary
 from flexcage.run.record import RunRecord
-from flexcage.run.summary import summary_of, timed, warned, with_stress
-
-if TYPE_CHECKING:
-    pass
+from flexcage.run.summary import part_of, summary_of, timed, warned, with_stress
 
 
 class SummarisedRun(RunRecord):
@@ -36,7 +33,8 @@ class SummarisedRun(RunRecord):
         """The summary as the run's end made it: one in a study may have left its stress out."""
         if self.folder and (self.folder / SUMMARY).exists():
             stored = Summary.read(self.folder / SUMMARY, vouched=self.store.vouches_for)
-            return stored if stored.warnings is not None else warned(stored, self)
+            stored = stored if stored.warnings is not None else warned(stored, self)
+            return with_own(stored, lambda: part_of(self))
         return summary_of(self)
 
     @property

@@ -23,7 +23,6 @@ from flexcage.fem.model import FEModel, assemble
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.halves import shared_by_halves
 from flexcage.modes.pockets import pocket_frame
-from flexcage.results.summary import Row, figure
 from flexcage.stress.between import Steps, no_steps
 from flexcage.stress.fields import NamedFields
 from flexcage.stress.history import Sliced, histories_at
@@ -161,17 +160,6 @@ class Rivets:
                 value=figure,
             )
         return self.dataset[figure].values[self.settled :].max(axis=0)
-
-    def rows(self) -> list[Row]:
-        """The largest tension, shear and nominal stress, as rows of a summary."""
-        alone = (
-            "; of a shank that bears all that goes from half to half, without its head's clamping"
-        )
-        rows = []
-        for name, note in (("tension", ""), ("shear", ""), ("stress", alone)):
-            value, rivet = self.largest(name)
-            rows.append(figure(f"rivet_{name}", value, f"rivet {rivet}{note}"))
-        return rows
 
     def table(self) -> str:
         """The largest loads of every rivet over the settled part."""

@@ -16,11 +16,11 @@ from flexcage.core.threads import one_blas_thread
 from flexcage.core.timing import Stages
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.reduction import CageReduction
-from flexcage.results.figures import pass_peak
-from flexcage.results.metrics import BearingNumbers, carrier_angle, settled
+from flexcage.results.figures.stress import Stressed
+from flexcage.results.metrics import carrier_angle, element, settled
+from flexcage.results.slip import BearingNumbers
 from flexcage.results.statistics import element_passes
 from flexcage.results.store import MemoryRunStore
-from flexcage.results.summary import Row, figure, statistic
 from flexcage.stress.between import Between
 from flexcage.stress.counting import require_pylife
 from flexcage.stress.fatigue import Fatigue, chosen_places, counted_stress, place_fatigue
@@ -197,36 +197,25 @@ class RunStress:
             between=self._between,
         )
 
-    def rows(self, *, element: str) -> list[Row]:
-        """Figures of a summary; ``element``: the bearing's word for a rolling element."""
+    @property
+    def figures(self) -> Stressed:
+        """What figures of a summary are taken from."""
         h = self.history
         k = h.peak_sample
-        roots = h.places[h.settled :].max(axis=0)
-        root = int(np.argmax(roots))
-        at = self.mesh.points[h.peak_vertex[k]] * 1e3
-        place = f"t = {self.peak_time * 1e3:.3f} ms at "
-        place += f"({at[0]:.1f}, {at[1]:.1f}, {at[2]:.1f}) mm, cage frame"
+        x, y, z = self.mesh.points[h.peak_vertex[k]] * 1e3
+        place = f"t = {self.peak_time * 1e3:.3f} ms at ({x:.1f}, {y:.1f}, {z:.1f}) mm, cage frame"
         part = self.dataset.isel(time=slice(h.settled, None))
-        windows, peak = element_passes(part, self.numbers), h.at_sample[h.settled :]
-        kind = self.places.kind
-        corner = windows.peak(h.places[h.settled :].max(axis=1))
-        return [
-            figure(
-                "stress_peak",
-                float(h.peak[k]),
-                f"{place}; {kind.left_out} are never searched",
-                walls=kind.walls,
-            ),
-            statistic("stress_mean_peak", windows.mean(peak)),
-            statistic("stress_root_pass_peak", corner, pass_peak(element), place=f"a {kind.one}"),
-            figure(
-                "stress_root",
-                float(roots[root]),
-                in_words(h.place_names[root]),
-                place=f"a {kind.one}",
-            ),
-            figure("stress_start", float(h.peak[: h.settled].max(initial=0.0))),
-        ]
+        return Stressed(
+            element=element(self.dataset),
+            kind=self.places.kind,
+            peak=float(h.peak[k]),
+            peak_place=place,
+            at_sample=h.at_sample[h.settled :],
+            start=float(h.peak[: h.settled].max(initial=0.0)),
+            places=h.places[h.settled :],
+            place_names=tuple(map(in_words, h.place_names)),
+            windows=element_passes(part, self.numbers),
+        )
 
     @property
     def _first_settled(self) -> int:

@@ -19,10 +19,12 @@ from flexcage.core.reading import read_json
 from flexcage.core.warning import RunWarning
 from flexcage.core.writing import replace
 from flexcage.mesh.options import FINENESS
+from flexcage.results.figures.figure import CONVERGENCE, STATISTIC
+from flexcage.results.figures.table import FIGURES, marked
 from flexcage.results.files import load, save
-from flexcage.results.known import CONVERGENCE, KNOWN, STATISTIC, marked
+from flexcage.results.row import Row
 from flexcage.results.statistics import spread
-from flexcage.results.summary import Row, Summary
+from flexcage.results.summary import Summary
 from flexcage.run.folder import write_case
 from flexcage.run.foreseen import told_at_once
 from flexcage.study.convergence import Convergence, Finding
@@ -32,9 +34,6 @@ from flexcage.study.work import run_in
 log = logging.getLogger(__name__)
 
 _ORIGIN = "origin.json"  # beside a run: the flexcage that computed it
-
-#: Outputs compared, by their keys in the summary: statistics of the motion, and plain values.
-OUTPUTS = marked(CONVERGENCE)
 
 
 @dataclass(frozen=True)
@@ -219,7 +218,7 @@ def _compare(
         names.setdefault(step.case.hash, f"{step.axis} {step.name}")
     return Convergence(
         name=case.name,
-        own=tuple(own.row(k) for k in OUTPUTS if k in own) if isinstance(own, Summary) else (),
+        own=() if isinstance(own, str) else tuple(own.row(k) for k in _compared() if k in own),
         findings=tuple(findings),
         compared=compared,
         failures={
@@ -266,15 +265,20 @@ def _by_another(folder: Path) -> list[RunWarning]:
     return [RunWarning("version", sentence)]
 
 
+def _compared() -> tuple[str, ...]:
+    """Keys of the figures compared: statistics of the motion, and plain values."""
+    return marked(CONVERGENCE)
+
+
 def _findings(level: Level, finest: Level, figures: dict[str, Summary | str]) -> list[Finding]:
     here, best = figures[level.case.hash], figures[finest.case.hash]
     if isinstance(here, str) or isinstance(best, str):
         return []
-    pairs = [(here.row(k), best.row(k)) for k in OUTPUTS if k in here and k in best]
+    pairs = [(here.row(k), best.row(k)) for k in _compared() if k in here and k in best]
     return [
         Finding(
             axis=level.axis, level=level.name, finest=finest.name, output=a.key, label=a.label,
-            unit=a.unit, statistic=STATISTIC in KNOWN[a.key].marks, spread=_spread(a, b),
+            unit=a.unit, statistic=STATISTIC in FIGURES[a.key].marks, spread=_spread(a, b),
             value=_number(a.value), margin=a.margin,
             finest_value=_number(b.value), finest_margin=b.margin,
         )
@@ -284,7 +288,7 @@ def _findings(level: Level, finest: Level, figures: dict[str, Summary | str]) ->
 
 def _spread(one: Row, other: Row) -> float:
     """Relative margin of a difference: from windows in pairs, or of runs taken as independent."""
-    if STATISTIC not in KNOWN[one.key].marks:
+    if STATISTIC not in FIGURES[one.key].marks:
         return 0.0
     if one.record is not None and other.record is not None:
         return spread(one.record, other.record)

@@ -15,18 +15,28 @@ from flexcage.cages import riveted_cages
 from flexcage.core.binding import did_you_mean
 from flexcage.core.errors import InputError
 from flexcage.core.wings import FAMILIES
-from flexcage.results.known import (
+from flexcage.results.figures.figure import (
     CAGED,
     FATIGUE,
     FLEXIBLE,
     FULL,
-    KNOWN,
     LATER,
     RIVETED,
     SIGNED,
     TEXT,
     WEAR,
 )
+from flexcage.results.figures.own import own_figures
+from flexcage.results.figures.stress import (
+    DAMAGE,
+    RIVETS,
+    RIVETS_TIME,
+    STRESS,
+    STRESS_TIME,
+    TRACKS,
+    stress_rows,
+)
+from flexcage.results.figures.table import FIGURES
 from flexcage.results.metrics import carrier_angle, settled, whole_revolutions
 from flexcage.results.reductions import DERIVED, REDUCTIONS
 from flexcage.results.registry import (
@@ -39,8 +49,8 @@ from flexcage.results.registry import (
     families_with,
     variable,
 )
+from flexcage.results.row import Row, Value
 from flexcage.results.statistics import element_passes
-from flexcage.results.summary import SHOWN, Row, Value, figure
 from flexcage.stress.counting import require_pylife
 from flexcage.stress.sn_curves import sn_curve
 from flexcage.stress.wear_laws import wear_law
@@ -129,45 +139,28 @@ class Reduction:
         return Figure(value, unit, "", half if isfinite(half) else None)
 
 
-def _figure(key: str, value: float, margin: float | None = None) -> Figure:
-    """A known figure, in its units."""
-    shown = KNOWN[key].shown
-    return Figure(value, SHOWN[shown][0], shown, margin)
-
-
 def _fatigue(run: Run) -> dict[str, Figure]:
     """Damage and life at the worst place."""
-    worst = run.fatigue().worst
-    rate, half = worst.damage_rate, worst.margin if isfinite(worst.margin) else None
-    life = 1.0 / rate if rate > 0.0 else float("inf")
-    spread = None if half is None or not isfinite(life) else life * half / rate
-    return {
-        "fatigue_damage_rate": _figure("fatigue_damage_rate", rate, half),
-        "fatigue_life": _figure("fatigue_life", life, spread),
-    }
+    return _figures_in(DAMAGE.rows(run.fatigue().worst.rate))
 
 
 def _wear(run: Run) -> dict[str, Figure]:
     """Volume from all pockets, and the depth of the deepest track at first."""
-    worn = run.wear()
-    return {
-        "wear_volume_rate": _figure("wear_volume_rate", worn.volume_rate),
-        "wear_depth_rate": _figure("wear_depth_rate", worn.depth_rate),
-    }
+    return _figures_in(TRACKS.rows(run.wear()))
 
 
 def _rivets(run: Run) -> dict[str, Figure]:
     """The largest loads of rivets; none of a cage that has no stress or no rivets."""
     if not run.case.riveted:
         return {}
-    rows = run.rivets.rows()
-    return _figures_in([*rows, figure("wall_rivets", run.stages["rivets"])])
+    rows = RIVETS.rows(run.rivets)
+    return _figures_in([*rows, *RIVETS_TIME.rows(run.stages)])
 
 
 def _stress(run: Run) -> dict[str, Figure]:
     """Equivalent stress, which a case leaves out while no output of its study needs it."""
-    rows = run.stress_rows()
-    return _figures_in([*rows, figure("wall_stress", run.stages["stress"])])
+    rows = stress_rows(run.cage_stress.figures)
+    return _figures_in([*rows, *STRESS_TIME.rows(run.stages)])
 
 
 def _figures_in(rows: Iterable[Row]) -> dict[str, Figure]:
@@ -175,12 +168,11 @@ def _figures_in(rows: Iterable[Row]) -> dict[str, Figure]:
 
 
 _COMPUTED = {FATIGUE: _fatigue, WEAR: _wear, RIVETED: _rivets}
-_STRESS = KNOWN["stress_peak"].section
 #: Figures that a summary may not hold: what computes them together.
 LATE_FIGURES: Mapping[str, Callable[[Run], dict[str, Figure]]] = {
-    name: _stress if known.section == _STRESS else _COMPUTED[known.needs]
-    for name, known in KNOWN.items()
-    if known.section == _STRESS or known.needs in _COMPUTED
+    name: _stress if figure.section == STRESS.section else _COMPUTED[figure.needs]
+    for name, figure in FIGURES.items()
+    if figure.section == STRESS.section or figure.needs in _COMPUTED
 }
 
 
@@ -204,14 +196,15 @@ def never_negative(name: str) -> bool:
     if name in OWN:
         return False
     if match is None:
-        return name not in KNOWN or SIGNED not in KNOWN[name].marks
+        return name not in FIGURES or SIGNED not in FIGURES[name].marks
     return match[1] in _SIZES or match[3] in _SIZED_REDUCTIONS
 
 
 def beyond_summary(names: tuple[str, ...]) -> tuple[str, ...]:
-    """Those among the outputs that a summary may not hold: reductions, ``LATE_FIGURES``, and those
-    of a user's own file."""
-    return tuple(n for n in names if is_reduction(n) or n in LATE_FIGURES or n in OWN)
+    """Those among the outputs that a summary may not hold: reductions, ``LATE_FIGURES``, and what a
+    user's own file adds."""
+    added = own_figures()
+    return tuple(n for n in names if is_reduction(n) or n in {*LATE_FIGURES, *OWN, *added})
 
 
 def needs_stress(names: tuple[str, ...]) -> bool:
@@ -231,13 +224,14 @@ def lacking(beyond: tuple[str, ...], figures: Collection[str]) -> tuple[str, ...
         and not (rigid and _needs_flexible(n))
         and not (not caged and _needs_cage(n))
         and not (apart and _of_neighbours(n))
+        and not (caged and n in FIGURES and FIGURES[n].needs == FULL)
     )  # fmt: skip
 
 
 def _needs_cage(name: str) -> bool:
     if is_reduction(name):
         return parse_reduction(name).variable.of_cage
-    return name in KNOWN and KNOWN[name].needs in (CAGED, FLEXIBLE, RIVETED, FATIGUE, WEAR)
+    return name in FIGURES and FIGURES[name].needs in (CAGED, FLEXIBLE, RIVETED, FATIGUE, WEAR)
 
 
 def _of_neighbours(name: str) -> bool:
@@ -245,7 +239,7 @@ def _of_neighbours(name: str) -> bool:
 
 
 def _needs_flexible(name: str) -> bool:
-    return name in KNOWN and KNOWN[name].needs in (FLEXIBLE, RIVETED, FATIGUE)
+    return name in FIGURES and FIGURES[name].needs in (FLEXIBLE, RIVETED, FATIGUE)
 
 
 def parse_reduction(name: str) -> Reduction:
@@ -363,9 +357,9 @@ def check_outputs(
         else:
             _check_figure(name)
             needs = _needs_flexible(name)
-            if name in KNOWN:
+            if name in FIGURES:
                 _check_late(name, materials)
-                _check_family(name, KNOWN.owners(name), family)
+                _check_family(name, FIGURES.owners(name), family)
         _check_cages(name, caged=caged, uncaged=uncaged)
         if needs and not flexible:
             raise InputError(
@@ -374,7 +368,7 @@ def check_outputs(
                 where="outputs",
                 value=name,
             )
-        if name in KNOWN and KNOWN[name].needs == RIVETED and not riveted:
+        if name in FIGURES and FIGURES[name].needs == RIVETED and not riveted:
             cages, chosen = riveted_cages()
             raise InputError(
                 f"Output '{name}' is of {cages}, but no flexible cage of the study is one; set "
@@ -392,7 +386,7 @@ def _check_cages(name: str, *, caged: bool, uncaged: bool) -> None:
             where="outputs",
             value=name,
         )
-    if not uncaged and name in KNOWN and KNOWN[name].needs == FULL:
+    if not uncaged and name in FIGURES and FIGURES[name].needs == FULL:
         raise InputError(
             f"Output '{name}' is of a full complement, but every case of the study has a cage; set "
             "cage.model = 'none' or leave it out.",
@@ -420,7 +414,7 @@ def _check_family(name: str, families: tuple[str, ...], family: str) -> None:
 
 def _check_late(name: str, materials: Collection[str]) -> None:
     """Refuse fatigue and wear for which something is lacking."""
-    needs = KNOWN[name].needs
+    needs = FIGURES[name].needs
     if needs == FATIGUE:
         require_pylife()
     for material in materials:
@@ -433,10 +427,10 @@ def _check_late(name: str, materials: Collection[str]) -> None:
 def _check_figure(name: str) -> None:
     if name in OWN:
         return
-    if name in KNOWN and not {TEXT, LATER} & KNOWN[name].marks:
+    if name in FIGURES and not {TEXT, LATER} & FIGURES[name].marks:
         return
-    if name in KNOWN:
-        what = "a text" if TEXT in KNOWN[name].marks else "a time of work after a run"
+    if name in FIGURES:
+        what = "a text" if TEXT in FIGURES[name].marks else "a time of work after a run"
         raise InputError(
             f"Output '{name}' is {what}, but a study takes numbers that its runs give; 'flexcage "
             "figures' lists them.",
@@ -450,7 +444,7 @@ def _check_figure(name: str) -> None:
             where="outputs",
             value=name,
         )
-    hint = did_you_mean(name, (*KNOWN, *OWN, *VARIABLES, *DERIVED), "")
+    hint = did_you_mean(name, (*FIGURES, *OWN, *VARIABLES, *DERIVED), "")
     if not hint.startswith("the nearest"):
         hint = "'flexcage figures' lists figures, such as 'cage_speed'"
     raise InputError(f"There is no output '{name}'; {hint}.", where="outputs", value=name)
@@ -467,5 +461,7 @@ def late_figures(run: Run, names: tuple[str, ...]) -> dict[str, Figure]:
     found: dict[str, Figure] = {}
     for compute in dict.fromkeys(LATE_FIGURES[name] for name in names if name in LATE_FIGURES):
         found |= compute(run)
+    if not own_figures().keys().isdisjoint(names):
+        found |= _figures_in(row for row in run.summary_at_end if row.key in own_figures())
     found |= {name: Figure(*values) for name, values in own_values(run, names).items()}
     return found | {name: parse_reduction(name).of(run) for name in names if is_reduction(name)}

@@ -11,11 +11,12 @@ from math import isfinite
 from typing import TYPE_CHECKING
 
 from flexcage.core.errors import InputError
-from flexcage.core.registry import add, check_free
-from flexcage.results.known import KNOWN
+from flexcage.core.registry import add, check_free, check_word
+from flexcage.results.figures.own import OUTPUTS
+from flexcage.results.figures.table import FIGURES
 from flexcage.results.reductions import DERIVED
 from flexcage.results.registry import VARIABLES
-from flexcage.results.summary import SHOWN
+from flexcage.results.row import SHOWN, check_shown
 
 if TYPE_CHECKING:
     from flexcage.run import Run
@@ -34,7 +35,8 @@ class OwnOutput:
     compute: Compute
 
 
-OWN: dict[str, OwnOutput] = {}
+#: Figures of a user's own may not have these names.
+OWN: dict[str, OwnOutput] = OUTPUTS
 
 
 def register_outputs(compute: Compute, units: Mapping[str, str]) -> None:
@@ -49,15 +51,10 @@ def register_outputs(compute: Compute, units: Mapping[str, str]) -> None:
     no figure is shown in.
     """
     for name, shown in units.items():
-        for taken, what in ((KNOWN, "figure"), (VARIABLES, VARIABLE), (DERIVED, VARIABLE)):
+        check_word(name, what=WHAT)
+        for taken, what in ((FIGURES, "figure"), (VARIABLES, VARIABLE), (DERIVED, VARIABLE)):
             check_free(taken, name, what=what)
-        if shown not in SHOWN:
-            raise InputError(
-                f"The {WHAT} '{name}' is shown in '{shown}', but should be in one of "
-                f'{", ".join(filter(None, SHOWN))}, or "" for none.',
-                where=name,
-                value=shown,
-            )
+        check_shown(WHAT, name, shown)
         add(OWN, name, OwnOutput(name, shown, compute), what=WHAT)
 
 

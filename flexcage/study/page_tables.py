@@ -11,8 +11,9 @@ import numpy as np
 from flexcage.report.blocks import Cell, Table
 from flexcage.report.comparison import Abscissa, Output
 from flexcage.report.tables import figure_cell, filled, number, typeset
-from flexcage.results.known import EFFORT, KNOWN, marked
-from flexcage.results.summary import SHOWN, Row, format_value
+from flexcage.results.figures.figure import EFFORT
+from flexcage.results.figures.table import FIGURES, marked
+from flexcage.results.row import SHOWN, Row, format_value
 from flexcage.study.axes import LatinHypercube, Points, Sobol, Zip
 from flexcage.study.outputs import Figure, never_negative
 from flexcage.study.words import in_words
@@ -66,7 +67,7 @@ def _short(value: Any) -> str:
 
 def _title(output: str) -> str:
     """Title of an output; a reduction stays as the study writes it."""
-    return KNOWN[output].title if output in KNOWN else output
+    return FIGURES[output].title if output in FIGURES else output
 
 
 def _titles(results: StudyRecord) -> dict[str, str]:
@@ -174,7 +175,7 @@ def audit_table(results: StudyRecord) -> Table:
         found = [stored.figures.get(key) for key in keys]
         place = [number(r.planned.number), number(r.planned.repetition)]
         rows.append([*place, *map(_cell, found, keys)])
-    heads = [_headed(KNOWN[key].title, KNOWN[key].shown or "1") for key in keys]
+    heads = [_headed(FIGURES[key].title, FIGURES[key].shown or "1") for key in keys]
     caption = f"Energy audit and the solver's work. {_share(results)}"
     return filled(Table(("point", "repetition", *heads), rows, caption))
 

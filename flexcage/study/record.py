@@ -20,7 +20,7 @@ from flexcage.core.listing import aligned, wrapped
 from flexcage.core.units import format_si, parse
 from flexcage.core.warning import RunWarning
 from flexcage.results.export import frame_to_csv, frame_to_parquet
-from flexcage.results.summary import format_value
+from flexcage.results.row import format_value
 from flexcage.run import Run
 from flexcage.simulate import load_run
 from flexcage.study.folder import CaseRow, Folder

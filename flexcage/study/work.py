@@ -111,7 +111,8 @@ def _complete(order: Order, folder: Folder) -> None:
     if row is not None and folder.has_run(order.hash):  # only outputs were added
         run = load_run(folder.case(order.hash))
         figures = {**row.figures, **late_figures(run, missing)}
-        folder.write_row(folder.case(order.hash), replace(row, figures=figures))
+        row = replace(row, figures=figures, warnings=run.warnings)
+        folder.write_row(folder.case(order.hash), row)
         return
     case = _case_of(order)
     tell = teller(order.hash)

@@ -9,10 +9,17 @@ import pytest
 
 from flexcage.bearings.ball import slip as ball_slip
 from flexcage.case.presets import load_preset
-from flexcage.results import metrics
-from flexcage.results.figures import summarise
-from flexcage.results.metrics import BearingNumbers, SlipRange
+from flexcage.results.figures.part import Part
+from flexcage.results.figures.sections import summarise
 from flexcage.results.registry import VARIABLES
+from flexcage.results.slip import (
+    BearingNumbers,
+    SlipRange,
+    at_own_angles,
+    cage_speed,
+    element_slip_ratio,
+    rolling_by_curvature,
+)
 from flexcage.results.spectra import SIGNALS, run_frequencies
 from flexcage.results.store import RunStore
 
@@ -68,21 +75,21 @@ def run():
 
 
 def test_slip_counts_from_rolling_at_the_angles_of_loaded_balls(run):
-    own = metrics.at_own_angles(run, NUMBERS)
+    own = at_own_angles(run, NUMBERS)
     assert own.angles == pytest.approx((INNER, OUTER), rel=1e-12)
-    speed = metrics.cage_speed(run, NUMBERS)
+    speed = cage_speed(run, NUMBERS)
     orbit, _ = by_hand()
     assert speed.epicyclic == pytest.approx(orbit, rel=1e-12)
     assert speed.slip_ratio == pytest.approx(SLIP, rel=1e-6)
     nominal = 0.5 * SPEED * (1.0 - NUMBERS.element_diameter * np.cos(NUMBERS.contact_angle) / PITCH)
     assert speed.nominal == pytest.approx(nominal, rel=1e-12)
     assert speed.nominal_slip == pytest.approx(1.0 - speed.mean / nominal, rel=1e-9)
-    assert np.abs(metrics.element_slip_ratio(run, NUMBERS)).max() < 1e-12
+    assert np.abs(element_slip_ratio(run, NUMBERS)).max() < 1e-12
     assert np.abs(ball_slip.slip_ratio(run, NUMBERS, nominal=True)).min() > 1e-3
 
 
 def test_the_summary_names_both_references(run):
-    s = summarise(run, NUMBERS, settle=0.0)
+    s = summarise(Part(run, NUMBERS, settle=0.0))
     note = s.row("epicyclic_speed").note
     assert note == "pure rolling at the mean contact angles, 24.1 deg inner, 12.6 deg outer"
     assert s["cage_slip_ratio"] == pytest.approx(SLIP, rel=1e-5)
@@ -95,9 +102,9 @@ def test_the_summary_names_both_references(run):
 def test_balls_without_load_and_without_angles_have_the_nominal_one(run):
     free = run.copy(deep=True)
     free["race_force"][:] = 0.0
-    assert metrics.at_own_angles(free, NUMBERS) == NUMBERS
-    assert metrics.rolling_by_curvature(free, NUMBERS) is None
-    s = summarise(free, NUMBERS, settle=0.0)
+    assert at_own_angles(free, NUMBERS) == NUMBERS
+    assert rolling_by_curvature(free, NUMBERS) is None
+    s = summarise(Part(free, NUMBERS, settle=0.0))
     assert s["epicyclic_speed"] == s["epicyclic_speed_nominal"]
     assert s.row("epicyclic_speed").note == ""
 
@@ -115,7 +122,7 @@ def test_lines_stand_where_balls_of_these_angles_pass(run):
 
 def test_curvature_of_contacts_makes_slip_of_balls_that_roll(run):
     """A strip at the ellipse's end lies a^2/(2 R) above the middle; a fifth of it, on average."""
-    found = metrics.rolling_by_curvature(run, NUMBERS)
+    found = rolling_by_curvature(run, NUMBERS)
     share = []
     for contact, radius in zip(BEARING.contacts, (5.000625e-3, 5.000625e-3)):
         a = contact.semi_axes(20.0)[0]
@@ -135,10 +142,10 @@ def test_a_slip_that_curvature_makes_is_not_laid_to_the_traction_curve(run):
     assert "balls roll" in limits.note(-0.003, (0.03, 0.02), (0.02, 0.01))
     assert "traction curve's slope" in limits.note(-0.003, (0.03, 0.02))
     assert "creep speed" in SlipRange(creep=0.1).note(-0.003, (0.03, 0.02), (0.02, 0.01))
-    slow = summarise(run, NUMBERS, settle=0.0, slip_range=limits).row("slip_loaded").note
+    slow = summarise(Part(run, NUMBERS, settle=0.0, slip_range=limits)).row("slip_loaded").note
     assert slow.startswith("balls roll: the grooves' curvature alone")
     flat = replace(NUMBERS, rolling_heights=(0.0, 0.0))
-    told = summarise(run, flat, settle=0.0, slip_range=limits).row("slip_loaded").note
+    told = summarise(Part(run, flat, settle=0.0, slip_range=limits)).row("slip_loaded").note
     assert "traction curve's slope" in told
 
 

@@ -9,10 +9,10 @@ import pytest
 
 from flexcage import bearings
 from flexcage.core.wings import FAMILIES
-from flexcage.results.figures import OwnFigures
-from flexcage.results.known import KNOWN
-from flexcage.results.metrics import ElementSpeed
+from flexcage.results.figures.part import OwnFigures
+from flexcage.results.figures.table import FIGURES
 from flexcage.results.registry import LABELS, RUN_DIMS, TIME, VARIABLES, families_with, variables_of
+from flexcage.results.slip import ElementSpeed
 
 
 @pytest.mark.parametrize("family", FAMILIES.values(), ids=lambda family: family.name)
@@ -29,13 +29,13 @@ def test_own_variables_and_figures_are_registered_and_labelled(family):
     for v in own.variables:
         assert VARIABLES[v.name] == v and family.name in families_with(v.name)
         assert set(v.dims) <= {TIME, *LABELS, *RUN_DIMS, *own.dims}, v.name
-    for figure in family.figures().known:
-        assert KNOWN[figure.key] == figure and family.name in KNOWN.owners(figure.key)
+    for figure in family.figures().figures.values():
+        assert FIGURES[figure.key] == figure and family.name in FIGURES.owners(figure.key)
     assert {"element_position", "race_force", "race_slip"} <= set(variables_of(family.name))
 
 
 def test_figures_stand_in_one_run_a_section():
-    sections = [figure.section for figure in KNOWN.values()]
+    sections = [figure.section for figure in FIGURES.values()]
     assert len(set(sections)) == 1 + sum(a != b for a, b in zip(sections, sections[1:]))
 
 

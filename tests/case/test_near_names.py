@@ -9,7 +9,8 @@ from flexcage import load_case, load_static
 from flexcage.core.binding import near_names
 from flexcage.core.errors import InputError
 from flexcage.results.registry import variable
-from flexcage.results.summary import Row, Section, Summary
+from flexcage.results.row import Row
+from flexcage.results.summary import Section, Summary
 
 BEARING = '[bearing]\npreset = "N1013"\n'
 

@@ -13,7 +13,7 @@ from flexcage.case.odd_values import odd_values
 from flexcage.contacts.laws import pocket_line_law
 from flexcage.core.errors import InputError
 from flexcage.geometry.materials import MATERIALS
-from flexcage.results.warnings import AT_END
+from flexcage.results.warnings_at_end import AT_END
 
 GPA = 1e9
 ROLLERS, BALLS = (flexcage.load_case(f"examples/{n}.toml") for n in ("n1013", "c7010"))

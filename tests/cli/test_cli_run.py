@@ -13,7 +13,8 @@ from flexcage import cli
 from flexcage.cli.settings import parse_setting
 from flexcage.core.errors import EnvironmentLacks, RunFailed
 from flexcage.core.timing import Stages
-from flexcage.results.summary import Row, Section, Summary
+from flexcage.results.row import Row
+from flexcage.results.summary import Section, Summary
 
 EXAMPLE = str(Path(__file__).parents[2] / "examples" / "n1013.toml")
 

@@ -27,6 +27,7 @@ from flexcage.modes import registry as modes_registry
 from flexcage.modes import spec as modes_spec
 from flexcage.render import album
 from flexcage.results import registry
+from flexcage.results.figures.table import FIGURES
 from flexcage.solve import integrators
 from flexcage.solve import options as solver_options
 from flexcage.system import constraints
@@ -71,7 +72,8 @@ block = 10
 ALL_TABLES = (
     laws.NORMAL_LAWS, laws.FRICTION_LAWS, laws.NORMAL_PARAMETERS, laws.FRICTION_PARAMETERS,
     contact_spec.NORMAL_LAWS, contact_spec.FRICTION_LAWS, modes_registry.BUILDERS,
-    modes_spec.KINDS, registry.VARIABLES._added, registry.LABELS._added, registry.COMPUTED,
+    modes_spec.KINDS, registry.VARIABLES._added, FIGURES._added,
+    registry.LABELS._added, registry.COMPUTED,
     album.PICTURES, materials.MATERIALS, presets._ADDED, core_registry._sources,
     integrators.INTEGRATORS, solver_options.METHODS, constraints.KINDS, system_spec.CONSTRAINTS,
 )  # fmt: skip
@@ -382,6 +384,18 @@ def test_the_constraint_of_the_page(tmp_path):
     ds = simulate(case.replace(**varied)).dataset
     assert np.abs(ds["cage_position"].sel(axis="x")).max() < 1e-12
     assert ds["constraint"].values[-1] == "in_plane"
+
+
+def test_the_figure_of_the_page(tmp_path):
+    from flexcage.simulate import simulate
+
+    file = tmp_path / "my_figure.py"
+    file.write_text(blocks_of_the_page()[2])
+    load_extension(file)
+    varied = {"cage.model": "rigid", "mesh.fineness": "coarse", "solver.duration": "2 ms"}
+    summary = simulate(load_case(PLAIN).replace(**varied)).summary
+    assert summary["cage_offset"] == pytest.approx(summary["whirl_radius_axis"], rel=1e-9)
+    assert summary["cage_offset"] > 1e-6 and summary.row("cage_offset").record is not None
 
 
 PLAIN = '[bearing]\npreset = "N1013"\n'

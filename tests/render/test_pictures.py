@@ -20,8 +20,8 @@ from flexcage.cages.window.defects import CrossbeamDefect, SideBeamDefect
 from flexcage.core.errors import EnvironmentLacks, InputError, RunFailed
 from flexcage.geometry.spall import Spall
 from flexcage.render import bearing_pictures, damage, sheet
-from flexcage.results.metrics import BearingNumbers
 from flexcage.results.registry import VARIABLES
+from flexcage.results.slip import BearingNumbers
 from flexcage.results.store import RunStore
 
 N1013 = RollerBearing(

@@ -19,12 +19,14 @@ from flexcage.report.comparison import Abscissa, Output
 from flexcage.report.run_page import RunAccount
 from flexcage.report.study_page import StudyAccount
 from flexcage.report.tables import number
-from flexcage.results.figures import summarise
-from flexcage.results.metrics import BearingNumbers
+from flexcage.results.figures.part import Part
+from flexcage.results.figures.sections import summarise
 from flexcage.results.registry import VARIABLES
+from flexcage.results.row import Row
+from flexcage.results.slip import BearingNumbers
 from flexcage.results.store import RunStore
-from flexcage.results.summary import Row
-from flexcage.results.warnings import AT_END, Outcome, warnings_of
+from flexcage.results.warnings import warnings_of
+from flexcage.results.warnings_at_end import AT_END, Outcome
 
 NUMBERS = BearingNumbers(pitch_diameter=82.5e-3, element_diameter=8e-3, element_count=Z)
 PEAK = 40e6  # Pa, at one vertex of the cage
@@ -108,7 +110,7 @@ def scene(ds, name: str = "small") -> Scene:
 def account(name: str = "small", **changes) -> RunAccount:
     """What a report tells of this run."""
     ds = dataset()
-    summary = summarise(ds, NUMBERS, settle=0.3)
+    summary = summarise(Part(ds, NUMBERS, settle=0.3))
     summary = summary.with_section("Solver", [Row("steps", "Steps", 1234)])
     summary = summary.with_section("Equivalent stress", [Row("stress_peak", "Peak", PEAK, "MPa")])
     duration = float(ds["time"][-1])

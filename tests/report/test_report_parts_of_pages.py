@@ -43,8 +43,9 @@ from flexcage.report.study_page import study_page
 from flexcage.report.tables import filled
 from flexcage.report.thinning import thinned
 from flexcage.report.verdicts import read_verdicts
-from flexcage.results.summary import Row, Summary
+from flexcage.results.row import Row
 from flexcage.results.summary import Section as Part
+from flexcage.results.summary import Summary
 
 
 class _Texts(HTMLParser):

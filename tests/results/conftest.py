@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from flexcage.results.metrics import BearingNumbers
 from flexcage.results.registry import variables_of
+from flexcage.results.slip import BearingNumbers
 from flexcage.results.store import RunStore
 
 N1013 = BearingNumbers(pitch_diameter=82.5e-3, element_diameter=8e-3, element_count=22)

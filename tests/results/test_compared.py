@@ -11,8 +11,9 @@ import pytest
 from flexcage.core.errors import InputError
 from flexcage.core.warning import RunWarning
 from flexcage.results.compared import FIRST, TEN, Comparison, Pair
-from flexcage.results.known import KNOWN
-from flexcage.results.summary import Row, Summary, figure
+from flexcage.results.figures.table import FIGURES
+from flexcage.results.row import Row
+from flexcage.results.summary import Summary
 
 RPM = pi / 30.0
 NOTE = "of the settled part; with much more to say of it than a column holds"
@@ -24,12 +25,12 @@ def summary_of(scale: float, *, margin: float | None = 1.0, **values: object) ->
               "race_force_inner", "race_force_outer")  # fmt: skip
     rows = [
         Row("cage_speed", "Cage speed", 280.0 * RPM, "rpm", NOTE, 0.5 * RPM),
-        *(Row(k, KNOWN[k].title, 10.0 * scale, "N", margin=margin) for k in forces),
-        *(figure(k, v) for k, v in values.items()),
+        *(Row(k, FIGURES[k].title, 10.0 * scale, "N", margin=margin) for k in forces),
+        *(FIGURES[k].row(v) for k, v in values.items()),
     ]
     found = Summary(warnings=(RunWarning("short", f"It is short by {scale:g}."),))
     for row in rows:
-        section = KNOWN[row.key].section
+        section = FIGURES[row.key].section
         kept = [r for s in found.sections if s.title == section for r in s.rows]
         found = found.with_section(section, [*kept, row])
     return found
@@ -117,4 +118,4 @@ def test_two_runs_are_compared_and_no_more():
 
 
 def test_what_a_comparison_leads_with_are_known_figures():
-    assert not set(FIRST) - set(KNOWN)
+    assert not set(FIRST) - set(FIGURES)

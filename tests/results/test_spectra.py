@@ -15,7 +15,7 @@ from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
 from flexcage.results import metrics, spectra
 from flexcage.results.features import cage_motion_features
-from flexcage.results.metrics import BearingNumbers
+from flexcage.results.slip import BearingNumbers
 from flexcage.results.spectra import (
     SIGNALS,
     amplitude_spectrum,

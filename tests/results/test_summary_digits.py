@@ -2,7 +2,8 @@
 
 import pytest
 
-from flexcage.results.summary import Row, Section, Summary, format_value
+from flexcage.results.row import Row, format_value
+from flexcage.results.summary import Section, Summary
 
 
 @pytest.mark.parametrize(

@@ -15,17 +15,11 @@ from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.basis import BodyFit
 from flexcage.results.edges import Edge
 from flexcage.results.elastic import ElasticShape
-from flexcage.results.summary import Row, Section, Summary
-from flexcage.results.warnings import (
-    AT_END,
-    AT_START,
-    Outcome,
-    Setup,
-    from_attrs,
-    of_statics,
-    to_text,
-    warnings_of,
-)
+from flexcage.results.row import Row
+from flexcage.results.summary import Section, Summary
+from flexcage.results.warnings import from_attrs, to_text, warnings_of
+from flexcage.results.warnings_at_end import AT_END, Outcome
+from flexcage.results.warnings_at_start import AT_START, Setup, of_statics
 
 N1013, BALL, RIBBON = (load_preset(name) for name in ("N1013", "7010C-PA66", "15x37x10"))
 FILLETED = {f"pocket{k}_{part}": np.zeros((1, 3), int) for k in range(22) for part in (

@@ -11,7 +11,8 @@ import pytest
 import flexcage
 from flexcage.case import load_case
 from flexcage.core.errors import InputError
-from flexcage.results.metrics import BearingNumbers, settled
+from flexcage.results.metrics import settled
+from flexcage.results.slip import BearingNumbers
 from flexcage.results.spectra import SIGNALS, own_frequencies
 
 CASE = Path(__file__).parents[2] / "examples" / "6205_spall.toml"

@@ -6,8 +6,10 @@ import pytest
 
 import flexcage
 from flexcage.core.warning import RunWarning
-from flexcage.results.known import BRIEF, marked
-from flexcage.results.summary import Row, Section, Summary
+from flexcage.results.figures.figure import BRIEF
+from flexcage.results.figures.table import marked
+from flexcage.results.row import Row
+from flexcage.results.summary import Section, Summary
 
 
 def cells(tree):

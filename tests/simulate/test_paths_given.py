@@ -13,7 +13,8 @@ from flexcage.mesh.series import new_folder
 from flexcage.modes.door.formats import read_body, write_body
 from flexcage.report.page import write_page
 from flexcage.results import export
-from flexcage.results.summary import Row, Section, Summary
+from flexcage.results.row import Row
+from flexcage.results.summary import Section, Summary
 from flexcage.run.run import Run
 from flexcage.study import compare
 

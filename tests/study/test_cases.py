@@ -13,8 +13,9 @@ from flexcage import cli
 from flexcage.case import load_case
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.core.progress import Silent
+from flexcage.results.figures.figure import CAGED, FLEXIBLE, LATER, STATISTIC
+from flexcage.results.figures.table import FIGURES, marked
 from flexcage.results.files import load, save
-from flexcage.results.known import CAGED, FLEXIBLE, KNOWN, LATER, STATISTIC, marked
 from flexcage.simulate import load_run, simulate
 from flexcage.stages import keep_at_hand
 from flexcage.study import run, work
@@ -282,12 +283,12 @@ def test_figures_that_a_study_may_name_are_those_of_a_run():
     run = simulate(case)
     keys = {row.key for row in run.summary}
     of_rollers = {
-        k for k, f in KNOWN.items()
-        if KNOWN.owners(k) in ((), ("cylindrical_roller",))
+        k for k, f in FIGURES.items()
+        if FIGURES.owners(k) in ((), ("cylindrical_roller",))
         and f.needs in ("", CAGED, FLEXIBLE) and k != "element_touches"  # a cage keeps them apart
     }  # fmt: skip
     assert keys | {"wall_stress"} == of_rollers - set(marked(LATER))
-    assert all(row.shown == KNOWN[row.key].shown for row in run.summary)
+    assert all(row.shown == FIGURES[row.key].shown for row in run.summary)
     statistics = {row.key for row in run.summary if row.record is not None}
     assert statistics == keys & set(marked(STATISTIC))
 

@@ -5,7 +5,7 @@ import json
 import pytest
 from study_cases import short_case
 
-from flexcage.results.known import KNOWN
+from flexcage.results.figures.table import FIGURES
 from flexcage.simulate import load_run, simulate
 from flexcage.stress.run_stress import RunStress
 from flexcage.study import work
@@ -20,7 +20,7 @@ from flexcage.study.spec import Study
 from flexcage.study.work import do_case, order_of
 
 SECTION = "Equivalent stress"
-OF_STRESS = tuple(name for name, known in KNOWN.items() if known.section == SECTION)
+OF_STRESS = tuple(name for name, known in FIGURES.items() if known.section == SECTION)
 MOVED = {"cage.model": "flexible", "modes.count": 4, "start.push": "200 mm/s",
          "solver.duration": "1 ms"}  # fmt: skip
 MODELS = Grid("cage.model", ["rigid", "flexible"])
@@ -50,9 +50,9 @@ def plain():
     return simulate(short_case(**MOVED))
 
 
-@pytest.mark.parametrize("name", [n for n, k in KNOWN.items() if k.needs])
+@pytest.mark.parametrize("name", [n for n, k in FIGURES.items() if k.needs])
 def test_outputs_of_stress_rivets_and_fatigue_want_stress(name):
-    wanted = KNOWN[name].section in (SECTION, "Rivets", "Fatigue")
+    wanted = FIGURES[name].section in (SECTION, "Rivets", "Fatigue")
     assert needs_stress(("cage_speed", name, "pocket_force.max")) == wanted
     assert not needs_stress(("cage_speed", "pocket_force.max"))
 

@@ -9,7 +9,8 @@ import pytest
 
 from flexcage.case import Case
 from flexcage.core.errors import InputError
-from flexcage.results.summary import Row, Section, Summary
+from flexcage.results.row import Row
+from flexcage.results.summary import Section, Summary
 from flexcage.study.compare import compare, compare_runs, short_names
 
 

@@ -11,8 +11,10 @@ from flexcage import cli
 from flexcage.case import load_case
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.core.warning import RunWarning
+from flexcage.results.figures.table import FIGURES
+from flexcage.results.row import Row
 from flexcage.results.statistics import Record
-from flexcage.results.summary import Row, Section, Summary
+from flexcage.results.summary import Section, Summary
 from flexcage.simulate import simulate
 from flexcage.study import converge as module
 from flexcage.study import work
@@ -36,7 +38,7 @@ class FakeRun:
         speed = 100.0 + wandering + 0.5 * (case.contacts.race.slices == 8)
         frequency = {"coarse": 869.1, "medium": 860.6}.get(case.mesh.fineness, 858.5)
         rows = (
-            Row.of("cage_speed", "Cage speed", Record(np.stack([speed, np.ones(80)], 1)), "rpm"),
+            FIGURES["cage_speed"].row(Record(np.stack([speed, np.ones(80)], 1))),
             Row("pocket_force_mean", "Pocket force, mean", force, "N", "", 0.02),
             Row("whirl_radius", "Whirl radius, mean", 40e-6, "um", "", 8e-6),
             Row("slip_loaded", "Loaded zone, slip ratio", 0.01, "%"),

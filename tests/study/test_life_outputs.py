@@ -9,7 +9,7 @@ from study_cases import short_case, short_study
 
 from flexcage.core.errors import EnvironmentLacks, InputError
 from flexcage.results.metrics import settled
-from flexcage.results.summary import SHOWN
+from flexcage.results.row import SHOWN
 from flexcage.simulate import simulate
 from flexcage.stress.loads import cage_loads
 from flexcage.study.axes import Grid

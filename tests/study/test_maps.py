@@ -159,6 +159,8 @@ def test_outputs_of_ones_own_are_checked():
     ):
         with pytest.raises(InputError, match=f"{what} '{name}' exists already"):
             register_outputs(lambda run: {}, {name: ""})
+    with pytest.raises(InputError, match="'my_force.max', but must be one word"):  # a reduction
+        register_outputs(lambda run: {}, {"my_force.max": "N"})
     with pytest.raises(InputError, match="shown in 'furlong'"):
         register_outputs(lambda run: {}, {"my_length": "furlong"})
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ import xarray
 from bearing_runs import BETWEEN_RIBS, NUP, rolling_start
 from roller_designs import DESIGNS, GAP, INNER, NJ, OUTER, N
 
-from flexcage.bearings.cylindrical_roller.figures import force_rows
+from flexcage.bearings.cylindrical_roller.figures import FORCES
 from flexcage.bearings.cylindrical_roller.recording import overlaps
 from flexcage.render.shapes import shapes_of
 from flexcage.results.statistics import Windows
@@ -64,11 +65,15 @@ def test_figures_of_counter_ribs():
     time = np.arange(50) * 1e-4
     ds = xarray.Dataset({"counter_rib_force": (dims, force)}, coords={"time": time})
     windows = Windows(50, np.array([0, 25]))
-    axial, peak = force_rows(ds, windows)
+
+    def part_of(ds):
+        return SimpleNamespace(ds=ds, windows=windows)
+
+    axial, peak = FORCES.rows(part_of(ds))
     assert axial.value == pytest.approx(225.0) and peak.value == 30.0 and not axial.idle
-    axial, peak = force_rows(0.0 * ds, windows)
+    axial, peak = FORCES.rows(part_of(0.0 * ds))
     assert axial.idle and peak.idle
-    assert force_rows(ds.drop_vars("counter_rib_force"), windows) == ()
+    assert FORCES.rows(part_of(ds.drop_vars("counter_rib_force"))) == ()
 
 
 def test_words_name_the_ring_whose_ribs_guide_a_cage():

@@ -17,6 +17,7 @@ from test_roller_strikes_cage import ALONE, SPEED, strike
 from verification_bearing import bearing_of, bent, log, n1013, station_reading
 
 from flexcage.results import metrics
+from flexcage.results.slip import cage_speed
 from flexcage.simulate import simulate
 
 RPM = np.pi / 30.0
@@ -42,7 +43,7 @@ class Forces:
         return cls(
             float(largest.mean()), float(largest.max()), float(pocket[pocket > 0.0].mean()),
             float(np.percentile(pocket, 99.99)), float(pocket.max()),
-            metrics.cage_speed(ds, run.numbers).mean / RPM,
+            cage_speed(ds, run.numbers).mean / RPM,
         )  # fmt: skip
 
 

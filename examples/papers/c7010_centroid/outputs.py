@@ -13,6 +13,7 @@ import numpy as np
 from flexcage import register
 from flexcage.results import instrument, metrics
 from flexcage.results.instrument import LaserSetup
+from flexcage.results.slip import cage_speed
 
 #: Axial place of the radial sensors [m] from the cage's middle. The paper does not give it: they
 #: must see the cage beside the ring, which ends at 8 mm, and the cage of the preset ends at 10 mm.
@@ -49,7 +50,7 @@ UNITS = {
 def evaluate(run) -> Mapping[str, float]:
     """All of ``UNITS`` of one run, in SI."""
     case, ds = run.case, metrics.settled(run.dataset, run.case.output.settle)
-    speed = metrics.cage_speed(ds, run.numbers)
+    speed = cage_speed(ds, run.numbers)
     centre, axis = instrument.of_run(ds)
     radius = np.hypot(centre[:, 1], centre[:, 2])
     setup = setup_of(case.cage)

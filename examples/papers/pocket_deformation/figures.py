@@ -17,6 +17,7 @@ from scipy.interpolate import LinearNDInterpolator
 from flexcage import Run
 from flexcage.render import sheet
 from flexcage.results import metrics
+from flexcage.results.slip import element_spin
 
 PRINTED = tomllib.loads((Path(__file__).with_name("printed.toml")).read_text("utf-8"))
 ROOT = PRINTED["conclusion_2"]["root"][SHORTER]  # MPa
@@ -111,7 +112,7 @@ def _cage_speed(run) -> tuple[np.ndarray, Curves]:
 
 
 def _rollers(run) -> tuple[np.ndarray, Curves]:
-    spin = metrics.element_spin(run.dataset).transpose("time", "element").values * RPM * 1e-3
+    spin = element_spin(run.dataset).transpose("time", "element").values * RPM * 1e-3
     curves = [(spin[:, k], colour, name) for k, (colour, name) in COLOURS.items()]
     return run.dataset["time"].values, curves
 

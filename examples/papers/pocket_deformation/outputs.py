@@ -16,6 +16,7 @@ from flexcage import register
 from flexcage.results import metrics
 from flexcage.results.lowpass import butterworth, low_passed_both_ways
 from flexcage.results.reductions import crest_factor, kurtosis, main_line, mean_frequency
+from flexcage.results.slip import cage_speed, element_slip_ratio, element_spin
 from flexcage.results.statistics import element_passes
 
 BEFORE, AT, AFTER = 4, 5, 6  # rollers j-1, j, j+1
@@ -87,7 +88,7 @@ def cage_motion(ds, run) -> dict[str, float]:
     time = ds["time"].values
     step = float(np.median(np.diff(time)))
     omega = ds["cage_omega"].sel(axis="x").values
-    speed = metrics.cage_speed(ds, run.numbers)
+    speed = cage_speed(ds, run.numbers)
     distance, whirl = (metrics.whirl_radius(ds, about=about) for about in ("axis", "mean"))
     along = metrics.orbit(ds)
     widest = along[:, int(np.argmax(along.std(axis=0)))]  # of y and z, the one that moves more
@@ -130,8 +131,8 @@ def vibration(ds, run) -> dict[str, float]:
 
 def rollers(ds, run) -> dict[str, float]:
     """Speeds and slips of rollers j-1, j and j+1."""
-    spin = metrics.element_spin(ds).transpose("time", "element").values
-    slip = metrics.element_slip_ratio(ds, run.numbers).transpose("time", "element").values
+    spin = element_spin(ds).transpose("time", "element").values
+    slip = element_slip_ratio(ds, run.numbers).transpose("time", "element").values
     typical = float(np.median(np.abs(spin).mean(axis=0)))
     found = {}
     for name, k in ROLLERS.items():

@@ -16,6 +16,7 @@ from flexcage.geometry.materials import Material
 from flexcage.geometry.riveted_joint import JointShape
 from flexcage.mesh.riveted_joint import JointMesh
 from flexcage.results import metrics
+from flexcage.results.slip import cage_speed, rolling_by_curvature
 from flexcage.results.statistics import element_passes
 from flexcage.stress.riveted_joint import Fit, RivetedJoint
 
@@ -62,9 +63,9 @@ def slip_parts(run, ds) -> dict[str, float]:
     bearing, inner = run.case.bearing, float(run.case.drive.speed)
     reference = 0.5 * inner * (1.0 - PRINTED_BALL / PRINTED_PITCH)
     flat = 0.5 * inner * (1.0 - bearing.ball_diameter / bearing.pitch_diameter)
-    speed = metrics.cage_speed(ds, run.numbers)
+    speed = cage_speed(ds, run.numbers)
     cage, rolling = abs(speed.mean), abs(speed.epicyclic)
-    curved = metrics.rolling_by_curvature(ds, run.numbers)
+    curved = rolling_by_curvature(ds, run.numbers)
     share = 0.0 if curved is None else curved.cage_slip
     return {
         "slip": 1.0 - cage / reference,

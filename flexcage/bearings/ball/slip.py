@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from flexcage.results.metrics import (
+from flexcage.results.metrics import carrier_speed
+from flexcage.results.slip import (
     BearingNumbers,
     ElementSpeed,
     at_own_angles,
-    carrier_speed,
     rolling_sense,
     slip_of,
 )

@@ -1,0 +1,57 @@
+"""The sections of a summary that follow from what a run recorded: motion, forces, energy."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from flexcage.results.figures.energy import ENERGY
+from flexcage.results.figures.figure import SETTLING, Figure, Table, rows_of
+from flexcage.results.figures.forces import CONTACTS, FORCES, NEXT
+from flexcage.results.figures.motion import MOTION
+from flexcage.results.figures.own import SECTION, own_rows
+from flexcage.results.figures.part import Part
+from flexcage.results.figures.rings import INNER, OUTER, constraint_rows
+from flexcage.results.figures.speeds import SPEEDS, STATISTICS, Taken
+from flexcage.results.figures.table import FIGURES
+from flexcage.results.registry import NEIGHBOURS
+from flexcage.results.summary import Section, Summary
+
+
+def summarise(part: Part) -> Summary:
+    """Summary of a run's motion and forces after its start; stress, solver and times come from
+    those who know them, by :meth:`Summary.with_figures`."""
+    sections = [section for section in _sections(part) if section.rows]
+    records = {row.key: row.record for section in sections for row in section.rows}
+    watched: dict[Figure, Any] = {
+        figure: records[key]
+        for key, figure in FIGURES.items()
+        if SETTLING in figure.marks and records.get(key) is not None
+    }
+    first = Section(STATISTICS.section, STATISTICS.rows(Taken(part, watched), words=part.words))
+    return Summary((first, *sections))
+
+
+def _sections(part: Part) -> Iterator[Section]:
+    own, facts = part.of_family, (part, part.lacks, part.words)
+
+    def of(table: Table[Part]) -> Section:
+        """A section, which the family's own figures close."""
+        added = [figure for figure in own.figures.values() if figure.section == table.section]
+        return Section(table.section, (*table.rows(*facts), *rows_of(added, *facts)))
+
+    yield of(SPEEDS)
+    yield Section(own.slip_title, rows_of([FIGURES[key] for key in own.slip], *facts))
+    if part.caged:
+        yield of(MOTION)
+    yield of(FORCES)
+    yield of(CONTACTS)
+    if NEIGHBOURS in part.run:
+        yield of(NEXT)
+    yield of(INNER)
+    if "outer_force" in part.run:
+        yield of(OUTER)
+    yield Section("Constraints", tuple(constraint_rows(part)))
+    if "energy" in part.run and "work" in part.run:
+        yield of(ENERGY)
+    yield Section(SECTION, own_rows(part))
