@@ -53,7 +53,7 @@ def begin_compiling(case: Case) -> Compiling | None:
     """
     if kernel_marks.kernels_cached(kernels_of(case)):
         return None
-    log.info("compiling the kernels for the first time: 20 to 30 seconds, once")
+    log.info(_what_is_compiled(case))
     pieces, end = os.pipe()
     os.write(end, bytes(range(MOST_PIECES)))
     os.close(end)
@@ -69,6 +69,14 @@ def begin_compiling(case: Case) -> Compiling | None:
     except OSError:
         helper = None  # then, or if the case is too long for a command, this one does it alone
     return Compiling(pieces, helper)
+
+
+def _what_is_compiled(case: Case) -> str:
+    """The message that kernels are compiled: which, and how long that takes."""
+    own_family = not type(case.bearing).__module__.startswith(f"{__name__.partition('.')[0]}.")
+    if own_family or not kernel_marks.own_kernels_cached(kernels_of(case)):
+        return "compiling the kernels for the first time: up to half a minute, once"
+    return "compiling the kernels that are new: a few seconds, once"
 
 
 def compile_pieces(text: str, *use: str) -> None:

@@ -108,8 +108,8 @@ def _without_cage(outline: Outline, source: str, inside: Inside, cage: str | Non
     if outline.complement == FULL and inside.full is None:
         kind = outline.type.replace("_", " ")
         raise InputError(
-            f"The inside of a {kind} bearing is not inferred from ratings of a full complement; give those "
-            'with a cage and leave --cage none out, then write model = "none" in [cage].',
+            f"The inside of a {kind} bearing is not inferred from ratings of a full complement; "
+            'give those with a cage without --cage none, then write model = "none" in [cage].',
             where="cage.type",
         )
     if outline.complement == FULL:
