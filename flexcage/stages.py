@@ -24,22 +24,22 @@ from flexcage.mesh.quality import check_mesh
 from flexcage.modes.reduction import CageReduction
 from flexcage.modes.table import ModeTable
 from flexcage.system.begun import Start
-from flexcage.system.bending import rigid_rings
 from flexcage.system.bodies import heaviest_load, in_housing
 from flexcage.system.constraints import names_of
 from flexcage.system.layout import Layout, bodies_of_bearing
-from flexcage.system.left_behind import left_by_lands
 from flexcage.system.problem import Bearing
-from flexcage.system.ring_modes import DAMPED
-from flexcage.system.ring_walls import lands_follow
-from flexcage.system.rings_in_motion import MovingRings, moving_rings
+from flexcage.system.rings.left_out import left_by_lands
+from flexcage.system.rings.low_modes import DAMPED
+from flexcage.system.rings.modes import no_modes
+from flexcage.system.rings.moving import MovingRings, moving_rings
+from flexcage.system.rings.races import rigid_rings
+from flexcage.system.rings.sections import lands_follow
 from flexcage.system.start import constrained, find_start, with_push
 from flexcage.system.statics.options import AT_START
 from flexcage.system.statics.rings import BentRing, Rings
 from flexcage.system.statics.solution import StaticSolution
 from flexcage.system.statics.solve import solve_bearing
 from flexcage.system.statics.yielding import compliance_of, questioned
-from flexcage.system.swinging import no_swings
 
 # mesh and reduction: the second is None for a rigid cage, both are where there is none
 Cage = tuple[CageMesh | None, CageReduction | None]
@@ -174,14 +174,14 @@ def _assembled(
     if bends:
         bending = bending_of(specs.bearing)
         data = rigid_rings(count) if rings is None else rings.data
-        swings = no_swings(count) if rings is None else rings.swings
-        motion, model = bending.motion, lands_follow(bending.model(*model, data, swings))
-    swinging = 0 if rings is None else len(rings.at_start)
+        modes = (no_modes(count), no_modes(count)) if rings is None else rings.modes
+        motion, model = bending.motion, lands_follow(bending.model(*model, data, *modes))
     if body is None:
         motion = motion.without_cage
     layout = Layout(
-        count, bodies_of_bearing(body.modes if body else None), names_of(specs.constraints),
-        bends, swinging,
+        count,
+        bodies_of_bearing(body.modes if body else None, rings.counts if rings else (0, 0)),
+        names_of(specs.constraints), bends,
     )  # fmt: skip
     return Bearing(
         motion, specs.bearing, model, specs.contacts, layout, constraints=specs.constraints,

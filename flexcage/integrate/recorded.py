@@ -81,7 +81,7 @@ def _of_cage(bearing: Bearing) -> dict[str, Any]:
 
 def _supports(bearing: Bearing) -> dict[str, Any]:
     """Azimuths of supports that hold an outer ring that bends."""
-    azimuth = bearing.rings.swings.azimuth if bearing.rings else ()
+    azimuth = bearing.rings.modes[1].azimuth if bearing.rings else ()
     if not len(azimuth):
         return {}
     told = {"units": "rad", "long_name": "azimuth of supports"}
@@ -100,7 +100,7 @@ def _spotted(bearing: Bearing, recording: Recording[Any]) -> dict[str, Any]:
 def recorded_names(bearing: Bearing, recording: Recording[Any]) -> list[str]:
     """Names of all that is recorded of this bearing."""
     layout = bearing.layout
-    supports = bearing.rings is not None and len(bearing.rings.swings.azimuth)
+    supports = bearing.rings is not None and len(bearing.rings.modes[1].azimuth)
     spots = len(recording.spots(bearing.data.model))
     counted = (
         ("mode", layout.modes), ("bending", layout.bends), ("support", supports),

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from flexcage.system.bending import POINTS, RingsData
-from flexcage.system.data import OUTER_RACE
 from flexcage.system.problem import Bearing
-from flexcage.system.swinging import deflect
+from flexcage.system.rings.modes import RingModes, deflect
+from flexcage.system.rings.moving import SIDES
+from flexcage.system.rings.races import POINTS, RacesData
 
 
 def ring_records(bearing: Bearing, y: np.ndarray) -> dict[str, np.ndarray]:
@@ -18,38 +18,41 @@ def ring_records(bearing: Bearing, y: np.ndarray) -> dict[str, np.ndarray]:
     psi = layout.q(y)["elements"][..., 2]
     shape = (len(y), layout.elements, 2, 3)
     load, deflection = np.zeros(shape), np.zeros(shape)
-    for side in np.flatnonzero(rings.bends):
+    for side in np.flatnonzero(rings.bends).tolist():
         load[:, :, side, rings.way] = force[:, side]
-        deflection[:, :, side, rings.way] = _deflections(rings, int(side), psi, force[:, side])
-    if not layout.ring_modes:
-        return {"ring_load": load, "ring_deflection": deflection}
-    outer, press = _swung(bearing, y)
-    if rings.bends[OUTER_RACE]:
-        deflection[:, :, OUTER_RACE, rings.way] = outer
+        deflection[:, :, side, rings.way] = _deflections(rings, side, psi, force[:, side])
     found = {"ring_load": load, "ring_deflection": deflection}
-    if len(bearing.data.model.swings.azimuth):
-        found["support_force"] = press
+    for side, modes in enumerate((bearing.data.model.inner_modes, bearing.data.model.outer_modes)):
+        if not len(modes.push):
+            continue
+        moved, press = _by_modes(bearing, side, modes, y)
+        if rings.bends[side]:
+            deflection[:, :, side, rings.way] = moved
+        if len(modes.azimuth):
+            found["support_force"] = press
     return found
 
 
-def _swung(bearing: Bearing, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Deflections (n, Z, 2) of an outer race that swings, and forces (n, S) of its supports."""
-    layout, model = bearing.layout, bearing.data.model
-    rings, swings, count = model.rings, model.swings, len(y)
-    own = rings.half_space[OUTER_RACE]
-    found = np.zeros((count, layout.elements, 2))
-    press = np.zeros((count, len(swings.press)))
+def _by_modes(
+    bearing: Bearing, side: int, modes: RingModes, y: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Deflections (n, Z, 2) of the race of a ring with modes, and forces (n, S) of its supports."""
+    layout, races = bearing.layout, bearing.data.model.rings
+    own = races.half_space[side]
+    found = np.zeros((len(y), layout.elements, 2))
+    press = np.zeros((len(y), len(modes.press)))
     for k, state in enumerate(y):
-        q, s = layout.q(state)["elements"], layout.ring_forces(state)
-        deflect(q.ravel(), s.ravel(), layout.ring_coordinates(state)[0], rings, swings)
-        x, z = s[OUTER_RACE].T
+        q, s = layout.q(state), layout.ring_forces(state)
+        a = q[f"{SIDES[side]}_modes"]
+        deflect(side, q["elements"].ravel(), s.ravel(), a, races, modes)
+        x, z = s[side].T
         at_once = np.stack([own[0] * x + own[1] * z, own[1] * x + own[2] * z], axis=1)
-        found[k] = rings.deflection[OUTER_RACE] - at_once
-        press[k] = swings.press
+        found[k] = races.deflection[side] - at_once
+        press[k] = modes.press
     return found, press
 
 
-def _deflections(rings: RingsData, side: int, psi: np.ndarray, force: np.ndarray) -> np.ndarray:
+def _deflections(rings: RacesData, side: int, psi: np.ndarray, force: np.ndarray) -> np.ndarray:
     """Deflections (n, Z, 2) of a race at its ports, under forces (n, Z, 2) of elements at azimuths
     psi (n, Z)."""
     place = (psi[:, :, None] - psi[:, None]) % (2.0 * np.pi) * POINTS / (2.0 * np.pi)

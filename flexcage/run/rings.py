@@ -12,7 +12,7 @@ import numpy as np
 from flexcage.results.metrics import settled
 from flexcage.static import draw_ring
 from flexcage.stress.series import samples_near
-from flexcage.system.rings_in_motion import SIDES
+from flexcage.system.rings.moving import SIDES
 from flexcage.system.statics.rings import BentRing, SeatedRing
 
 if TYPE_CHECKING:

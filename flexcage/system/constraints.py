@@ -289,6 +289,7 @@ def _ease(model: Any, layout: Layout) -> np.ndarray:
         ring = getattr(model, f"{name}_ring")
         free = ring.free * (np.arange(len(ring.free)) > 2) if ring.stands else ring.free
         bodies[name][:] = free / ring.inertia[[MASS, MASS, MASS, AXIAL, TRANSVERSE, TRANSVERSE]]
+        bodies[f"{name}_modes"][:] = 1.0  # they have unit mass
     if layout.has_cage:
         cage: BodyData = model.cage
         inertia = np.trace(cage.G0) - np.diag(cage.G0)

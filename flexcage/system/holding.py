@@ -52,9 +52,9 @@ def hold(t, y, yd, d, rows, out, mode):
 def _places(at):
     """The places as the functions of constraints take them."""
     return Places(
-        at.elements, at.cages, at.modes, at.q, at.u, at.inner_q, at.inner_u, at.inner_b, at.outer_q,
-        at.outer_u, at.outer_b, at.cage_q, at.cage_u, at.cage_b, at.bodies_q, at.bodies_u,
-        at.border, at.coordinates, at.lam, at.held, at.loads, at.swings,
+        at.elements, at.cages, at.modes, at.inner_modes, at.outer_modes, at.q, at.u, at.inner_q,
+        at.inner_u, at.inner_b, at.outer_q, at.outer_u, at.outer_b, at.cage_q, at.cage_u, at.cage_b,
+        at.bodies_q, at.bodies_u, at.border, at.coordinates, at.lam, at.held, at.loads,
     )  # fmt: skip
 
 
@@ -73,10 +73,14 @@ def _displaced(y, d, shift, out):
     """Change of the bodies' coordinates that a displacement of all bodies, in the order of
     velocities, makes."""
     at, rates = fields(d.places), fields(d.scratch).S[0]
-    for q, b in ((at.inner_q, at.inner_b), (at.outer_q, at.outer_b)):
+    for q, b, modes in (
+        (at.inner_q, at.inner_b, at.inner_modes), (at.outer_q, at.outer_b, at.outer_modes),
+    ):  # fmt: skip
         ring_rates(array_from(y, q), array_from(shift, b), rates)
         for k in range(RING):
             out[q - at.bodies_q + k] = rates[k]
+        for m in range(modes):
+            out[q - at.bodies_q + RING + m] = shift[b + RIGID + m]
     if at.cages == 0:
         return
     own, cage = array_from(shift, at.cage_b), array_from(out, at.cage_q - at.bodies_q)

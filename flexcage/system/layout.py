@@ -42,6 +42,8 @@ class Places(NamedTuple):
     elements: int  # so many
     cages: int  # one or none; the places of one that is not there are behind all other bodies'
     modes: int  # so many of the cage
+    inner_modes: int  # so many of the inner ring; they stand behind its six coordinates
+    outer_modes: int
     q: int  # of the elements
     u: int
     inner_q: int
@@ -59,45 +61,45 @@ class Places(NamedTuple):
     coordinates: int  # so many of all bodies
     lam: int  # multipliers of drive and load, in y; in the border they follow the velocities
     held: int  # those of further constraints, in y
-    loads: int  # forces that rings bear
-    swings: int  # coordinates of an outer ring that swings
+    loads: int  # forces that rings which bend bear, behind all else
 
 
 @dataclass(frozen=True)
 class Body:
-    """One body of a bearing: its name, and how many coordinates and velocities it has."""
+    """One body of a bearing: its name, how many coordinates its frame has (``RING`` or ``FRAME``),
+    and how many modes it has in that frame."""
 
     name: str
-    coordinates: int
-    velocities: int
+    frame: int
+    modes: int = 0
 
     @property
-    def modes(self) -> int:
-        """So many modes."""
-        return self.velocities - RIGID
+    def coordinates(self) -> int:
+        """So many, of frame and modes."""
+        return self.frame + self.modes
+
+    @property
+    def velocities(self) -> int:
+        """So many, of frame and modes."""
+        return RIGID + self.modes
 
     def views(self, own: np.ndarray, turn: str, end: int) -> dict[str, np.ndarray]:
-        """Named views of its coordinates or velocities: all of a ring's; of a floating frame its
-        centre's, what stands behind that up to ``end``, called ``turn``, and its modes'."""
-        if self.coordinates == RING:
-            return {self.name: own}
+        """Named views of its coordinates or velocities: of a ring those of its frame, and its
+        modes'; of a floating frame its centre's, what stands behind that up to ``end``, called
+        ``turn``, and its modes'."""
+        if self.frame == RING:
+            return {self.name: own[..., :RING], f"{self.name}_modes": own[..., RING:]}
         centre, modes = own[..., :QUATERNION], own[..., end:]
         return {self.name: centre, turn: own[..., QUATERNION:end], "modes": modes}
 
 
-def ring(name: str) -> Body:
-    """A rigid ring."""
-    return Body(name, RING, RING)
-
-
-def floating(name: str, modes: int) -> Body:
-    """A body in a floating frame, with so many modes."""
-    return Body(name, FRAME + modes, RIGID + modes)
-
-
-def bodies_of_bearing(modes: int | None) -> tuple[Body, ...]:
-    """Inner ring, outer ring, and a cage with so many modes; None: no cage."""
-    return ring("inner"), ring("outer"), *(() if modes is None else (floating(CAGE, modes),))
+def bodies_of_bearing(modes: int | None, ring_modes: tuple[int, int] = (0, 0)) -> tuple[Body, ...]:
+    """Inner ring and outer ring, with so many ``ring_modes``, and a cage with so many ``modes``;
+    None: no cage."""
+    rings = (
+        Body(name, RING, own) for name, own in zip(("inner", "outer"), ring_modes, strict=True)
+    )
+    return *rings, *(() if modes is None else (Body(CAGE, FRAME, modes),))
 
 
 @part
@@ -113,21 +115,20 @@ class Layout:
     q: elements (x, r, psi, skew, tilt, spin), then each body's; u: elements (v_x, v_r, v_psi,
     w_axis, w_2, w_3), then each body's. ``ring`` and ``floating`` say what these are. The border of
     Newton's matrix is (the bodies' velocities, lambda, mu, and the further constraints' lambda and
-    mu, one of each for every name in ``held``). Where rings bend y ends with the forces s that they
-    bear of every element (``system.bending``), and with the coordinates and velocities of an outer
-    ring that swings (``system.swinging``).
+    mu, one of each for every name in ``held``). A body's modes, a ring's too, follow the
+    coordinates of its frame. Where rings bend y ends with the forces s that they bear of every
+    element (``rings.races``).
     """
 
     elements: int
     bodies: tuple[Body, ...]
     held: tuple[str, ...] = ()  # names of the scalar constraints beyond ``CONSTRAINTS``
     bends: bool = False  # do rings bend?
-    ring_modes: int = 0  # coordinates of an outer ring that swings
 
     @property
     def modes(self) -> int:
         """Modes of the cage."""
-        return sum(body.modes for body in self.bodies)
+        return sum(body.modes for body in self.bodies if body.name == CAGE)
 
     @property
     def has_cage(self) -> bool:
@@ -148,7 +149,7 @@ class Layout:
 
     @property
     def size(self) -> int:
-        return self.places.swings + 2 * self.ring_modes
+        return self.places.loads + (RING_FORCES * self.elements if self.bends else 0)
 
     @property
     def reactions(self) -> tuple[str, ...]:
@@ -170,10 +171,10 @@ class Layout:
             for kind, place in zip("qub", where, strict=True)
         }
         return Places(
-            elements=self.elements, cages=int(self.has_cage), modes=self.modes, q=0, u=q, **at,
-            bodies_q=own,
+            elements=self.elements, cages=int(self.has_cage), modes=self.modes,
+            **{f"{body.name}_modes": body.modes for body in self.bodies if body.frame == RING},
+            q=0, u=q, **at, bodies_q=own,
             bodies_u=q + own, border=v, coordinates=q - own, lam=lam, held=lam + N_OWN, loads=end,
-            swings=end + (RING_FORCES * self.elements if self.bends else 0),
         )  # fmt: skip
 
     def _each(self, q: int, u: int, b: int) -> Iterator[tuple[Body, int, int, int]]:
@@ -211,11 +212,7 @@ class Layout:
         """View (..., 2, Z, 2) of the forces that both rings bear, at their ports; none where rings
         are rigid."""
         count = self.elements if self.bends else 0
-        return y[..., self.places.loads : self.places.swings].reshape(*y.shape[:-1], 2, count, 2)
-
-    def ring_coordinates(self, y: np.ndarray) -> np.ndarray:
-        """View (..., 2, M) of the coordinates of an outer ring that swings, then velocities."""
-        return y[..., self.places.swings :].reshape(*y.shape[:-1], 2, self.ring_modes)
+        return y[..., self.places.loads :].reshape(*y.shape[:-1], 2, count, 2)
 
     def multipliers(self, y: np.ndarray) -> np.ndarray:
         """Forces and torques of the constraints ``reactions``, a copy."""

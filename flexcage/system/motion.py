@@ -83,11 +83,11 @@ def parts_type(name: str, model: type, module: str) -> Any:
 
 
 def bending_model(name: str, model: type, module: str) -> Any:
-    """Type of a family's model with the data of rings that bend (``bending.RingsData``), as
-    ``rings``, and of an outer ring that swings (``swinging.Swings``), as ``swings``; arguments as
-    those of ``parts_type``."""
+    """Type of a family's model with the data of races that yield (``rings.races.RacesData``), as
+    ``rings``, and of both rings' modes (``rings.modes.RingModes``), as ``inner_modes`` and
+    ``outer_modes``; arguments as those of ``parts_type``."""
     own: Any = model
-    return namedtuple(name, (*own._fields, "rings", "swings"), module=module)
+    return namedtuple(name, (*own._fields, "rings", "inner_modes", "outer_modes"), module=module)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -21,6 +21,7 @@ from flexcage.system.layout import (
     N_OWN,
     PER_ELEMENT,
     QUATERNION,
+    RING,
 )
 from flexcage.system.sampling import give_powers
 
@@ -84,17 +85,21 @@ def backsolve(alpha, y, r, data):
 
 
 @part
-def _ring_displacement(r, s):
+def _ring_displacement(r, modes, s):
     """Kinematic residuals of a ring as displacements, in the order of its velocities."""
     s[0], s[1], s[2] = r[0], r[1], r[2]
     s[U_SPIN], s[U_SKEW], s[U_TILT] = r[Q_SPIN], r[Q_SKEW], r[Q_TILT]
+    for m in range(modes):
+        s[RIGID + m] = r[RING + m]
 
 
 @part
-def _ring_change(s, r):
+def _ring_change(s, modes, r):
     """Changes of a ring's coordinates by displacements."""
     r[0], r[1], r[2] = s[0], s[1], s[2]
     r[Q_SPIN], r[Q_SKEW], r[Q_TILT] = s[U_SPIN], s[U_SKEW], s[U_TILT]
+    for m in range(modes):
+        r[RING + m] = s[RIGID + m]
 
 
 @part
@@ -146,8 +151,8 @@ def newton_step(alpha, y, r, at, tan, m):
         s[i, 0], s[i, 1], s[i, 2] = r[o], r[o + 1], r[o + 2] * y[o + 1]
         for c in range(3):
             s[i, TURN + c] = r[o + tan.turns[c]]
-    _ring_displacement(array_from(r, at.inner_q), array_from(sb, at.inner_b))
-    _ring_displacement(array_from(r, at.outer_q), array_from(sb, at.outer_b))
+    _ring_displacement(array_from(r, at.inner_q), at.inner_modes, array_from(sb, at.inner_b))
+    _ring_displacement(array_from(r, at.outer_q), at.outer_modes, array_from(sb, at.outer_b))
     if at.cages > 0:
         cage, r_cage, s_cage = _frames(y, r, sb, at)
         _frame_displacement(cage, r_cage, nm, s_cage)
@@ -189,8 +194,8 @@ def newton_step(alpha, y, r, at, tan, m):
     for k in range(further):
         for c in range(n):
             sb[c] += b * tan.held[k, c] * xb[n + N_OWN + further + k]
-    _ring_change(array_from(sb, at.inner_b), array_from(r, at.inner_q))
-    _ring_change(array_from(sb, at.outer_b), array_from(r, at.outer_q))
+    _ring_change(array_from(sb, at.inner_b), at.inner_modes, array_from(r, at.inner_q))
+    _ring_change(array_from(sb, at.outer_b), at.outer_modes, array_from(r, at.outer_q))
     if at.cages > 0:
         cage, r_cage, s_cage = _frames(y, r, sb, at)
         _frame_change(cage, s_cage, nm, b, r_cage)

@@ -46,7 +46,7 @@ from flexcage.system.spec import Constraint
 from flexcage.system.time_functions import corners
 
 if TYPE_CHECKING:
-    from flexcage.system.rings_in_motion import MovingRings
+    from flexcage.system.rings.moving import MovingRings
 
 ITERATIONS = 40  # of the spectral radius
 NUDGE = 5e-12  # [m] over which it takes differences
@@ -174,7 +174,9 @@ def law_functions(contacts: Contacts) -> tuple:
 
 def _low(model: Any, layout: Layout) -> int:
     """Columns of the border with which all elements are coupled, those that touch no pocket too."""
-    return layout.places.cage_b if model.outer_ring.free.any() else layout.places.inner_b + RING
+    at = layout.places
+    rings = bool(model.outer_ring.free.any()) or at.inner_modes + at.outer_modes > 0
+    return at.cage_b if rings else at.inner_b + RING
 
 
 def _evaluation(bearing: Any, law: Any) -> Any:

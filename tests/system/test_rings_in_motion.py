@@ -5,7 +5,7 @@ from functools import partial
 
 import numpy as np
 import pytest
-import swinging_cases
+import ring_cases
 from bearing_runs import unbalanced
 
 import flexcage
@@ -15,15 +15,15 @@ from flexcage.integrate.rings import _deflections
 from flexcage.stages import assembled_start, bearing_in_motion, bent_rings, cage_mesh
 from flexcage.static import solve_static
 from flexcage.stress.rings import ring_field
-from flexcage.system.rings_in_motion import moving_rings
+from flexcage.system.rings.moving import moving_rings
 from flexcage.system.spec import Load
 from flexcage.system.statics.options import AT_START
 from flexcage.system.statics.rings import Rings
 from flexcage.system.statics.solve import solve_bearing
 
 BOTH = {"inner_ring.ring": "flexible", "outer_ring.ring": "flexible"}
-LOADS = swinging_cases.LOADS | {"N1013": {"radial": 2000.0}}
-case_of = partial(swinging_cases.case_of, loads=LOADS)
+LOADS = ring_cases.LOADS | {"N1013": {"radial": 2000.0}}
+case_of = partial(ring_cases.case_of, loads=LOADS)
 
 
 def bending(preset, **how):

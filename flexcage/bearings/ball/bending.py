@@ -1,7 +1,7 @@
 """Balls in motion between rings that bend: the residual of ``residual`` with races that yield.
 
-A ball meets a groove as one of a rigid ring that is displaced as the race is at its azimuth; the
-outer ring's land follows it where that swings (``system.ring_walls``), the inner one's its seat.
+A ball meets a groove as one of a rigid ring that is displaced as the race is at its azimuth; lands
+follow their ring's modes (``system.rings.sections``).
 """
 
 from __future__ import annotations
@@ -31,27 +31,32 @@ from flexcage.contacts.groove import (
 )
 from flexcage.contacts.slices import Laws, elastic_forces
 from flexcage.contacts.state import set_frame
-from flexcage.core.jit import array_from, fields, part, zero
+from flexcage.core.jit import array_from, fields, outlined, part, zero
 from flexcage.core.vectors import cross, minus, plus
-from flexcage.system.bending import (
-    STEPS,
-    after,
-    at_once,
-    bend_rings,
-    borne_of,
-    close,
-    guess,
-    push_by_slopes,
-    ring_report,
-    ring_rows,
-    with_ring_weights,
-)
 from flexcage.system.data import FAMILY_PARTS, INNER_RACE, OUTER_RACE
 from flexcage.system.equations import push_pair
 from flexcage.system.layout import of_element
 from flexcage.system.motion import BendingMotion, bending_model, parts_type
 from flexcage.system.ring import inner_of, outer_of
-from flexcage.system.swinging import push_swings, swing, swing_report, swing_rows
+from flexcage.system.rings.modes import (
+    displace_by_modes,
+    mode_rows,
+    push_modes_by_element,
+    report_modes,
+)
+from flexcage.system.rings.races import (
+    STEPS,
+    after,
+    at_once,
+    borne_of,
+    close,
+    deflect_races,
+    force_rows,
+    guess,
+    push_by_slopes,
+    report_races,
+    with_ring_weights,
+)
 
 BendingBallModel = bending_model("BendingBallModel", BallModel, __name__)
 BendingBallParts = parts_type("BendingBallParts", BendingBallModel, __name__)
@@ -59,66 +64,51 @@ BendingBallParts = parts_type("BendingBallParts", BendingBallModel, __name__)
 
 def evaluate(t, y, yd, d, law, out, mode):
     """Residual into ``out``, as ``residual.evaluate``."""
-    at, rings = fields(d.places), fields(d.rings)
+    at, races = fields(d.places), fields(d.rings)
     q, u, qd, ud = y[: at.bodies_q], y[at.u : at.bodies_u], yd[: at.bodies_q], yd[at.u :]
     r_q, r_u, s = out[: at.bodies_q], out[at.u :], y[at.loads :]
     modes = set_bodies(y, d, mode)
     law[BESIDE](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
-    bend_rings(q, s, rings)
-    swing(q, u, y, d)
+    deflect_races(q, s, races)
+    displace_by_modes(q, u, y, d)
     Rc, Vc = array_from(y, at.cage_q), array_from(y, at.cage_u)
     for i in range(at.elements):
         own = of_element(i)
         qi, ui = q[own], u[own]
         set_frame(qi[2], fields(d.pose).F)
-        _inner_race(i, qi, ui, inner_of(y, d), s, d, law, mode)
-        _outer_race(i, qi, ui, outer_of(y, d), s, d, law, mode)
-        push_swings(i, d)
+        ring, race = inner_of(y, d), fields(d.inner)
+        _on_race(INNER_RACE, i, qi, ui, ring, race, fields(d.inner_modes), s, d, law, mode)
+        ring, race = outer_of(y, d), fields(d.outer)
+        _on_race(OUTER_RACE, i, qi, ui, ring, race, fields(d.outer_modes), s, d, law, mode)
+        push_modes_by_element(i, d)
         push_by_slopes(i, q, y, d)
         if at.cages > 0:
             ball_in_pocket(i, qi, ui, Rc, Vc, modes, d, law, mode)
         ball_rows(i, qi, ui, qd[own], ud[own], d, r_q[own], r_u[own], mode)
-    ring_rows(s, yd[at.loads :], rings, out[at.loads :])
+    force_rows(s, yd[at.loads :], races, out[at.loads :])
     if mode >= REPORT:
-        ring_report(u, q, s, rings, fields(d.report))
-        swing_report(q, u, y, d)
+        report_races(u, q, s, races, fields(d.report))
+        report_modes(q, u, y, d)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
-    swing_rows(y, yd, d, out)
+    mode_rows(y, yd, d, out, mode)
 
 
-@part
-def _inner_race(i, qi, ui, ring, s, d, law, mode):
-    """Ball i on the inner race, in its frame F."""
-    work, pair = fields(d.scratch), fields(d.pair)
+@outlined
+def _on_race(side, i, qi, ui, ring, race, modes, s, d, law, mode):
+    """Ball i on the race of a ring (``side``), in its frame F."""
+    work, pair, races = fields(d.scratch), fields(d.pair), fields(d.rings)
     laws, sl = Laws(law[RACE_LAW], law[RACE_RUBS]), fields(d.slices).row[0]
     zero(pair.wrench)
-    ball = on_race(i, qi, ui, ring, INNER_RACE, d)
-    race, rings = fields(d.inner), fields(d.rings)
-    yielded = _yielded(INNER_RACE, i, ball, race, s, laws, sl, rings)
+    ball = _carried(i, on_race(i, qi, ui, ring, side, d), modes)
+    yielded = _yielded(side, i, ball, race, s, laws, sl, races)
     if groove_contact(yielded, race, laws, sl, pair.wrench, mode, work.sums):
-        _bear(INNER_RACE, i, yielded, race, sl, rings)
-        push_pair(i, pair.wrench, work.unit, ball.centre, ring.b, d)
-    if mode >= REPORT:
-        report_race(i, INNER_RACE, work.sums, fields(d.report))
-
-
-@part
-def _outer_race(i, qi, ui, ring, s, d, law, mode):
-    """The same on the outer race."""
-    work, pair = fields(d.scratch), fields(d.pair)
-    laws, sl = Laws(law[RACE_LAW], law[RACE_RUBS]), fields(d.slices).row[0]
-    zero(pair.wrench)
-    ball = _carried(i, on_race(i, qi, ui, ring, OUTER_RACE, d), d)
-    race, rings = fields(d.outer), fields(d.rings)
-    yielded = _yielded(OUTER_RACE, i, ball, race, s, laws, sl, rings)
-    if groove_contact(yielded, race, laws, sl, pair.wrench, mode, work.sums):
-        _bear(OUTER_RACE, i, yielded, race, sl, rings)
-        if fields(d.swings).push.shape[0] > 0:
+        _bear(side, i, yielded, race, sl, races)
+        if modes.push.shape[0] > 0:
             for c in range(2):
-                fields(d.swings).total[i, c] = -pair.wrench[c]
+                modes.total[i, c] = -pair.wrench[c]
         push_pair(i, pair.wrench, work.unit, ball.centre, ring.b, d)
     if mode >= REPORT:
-        report_race(i, OUTER_RACE, work.sums, fields(d.report))
+        report_race(i, side, work.sums, fields(d.report))
 
 
 @part
@@ -141,10 +131,10 @@ def _yielded(side, i, ball, race, s, laws, sl, rings):
 
 
 @part
-def _carried(i, ball, d):
-    """The ball as an outer race meets it that swings beneath it."""
-    rate = fields(d.swings).rate
-    if fields(d.swings).push.shape[0] == 0:
+def _carried(i, ball, modes):
+    """The ball as a race meets it that its ring's modes move."""
+    rate = modes.rate
+    if modes.push.shape[0] == 0:
         return ball
     return BallOnRace(
         ball.radius, ball.centre, ball.velocity, ball.spin, ball.axis,

@@ -21,7 +21,7 @@ from flexcage.bodies.floating_frame import BodyData
 from flexcage.system.begun import Advance, Start, StaticStart
 from flexcage.system.layout import Layout
 from flexcage.system.problem import Bearing
-from flexcage.system.rings_in_motion import SIDES
+from flexcage.system.rings.moving import SIDES
 from flexcage.system.start import made_room
 from flexcage.system.statics.solution import StaticSolution
 

@@ -1,8 +1,7 @@
 """Rollers in motion between rings that bend: the residual of ``residual`` with races that yield.
 
 A roller meets a race as one of a rigid ring that is displaced and tilted as the race is at its
-azimuth; the outer ring's ribs and land follow it where that swings (``system.ring_walls``), those
-of the inner one its seat.
+azimuth; ribs and lands follow their ring's modes (``system.rings.sections``).
 """
 
 from __future__ import annotations
@@ -17,7 +16,6 @@ from flexcage.bearings.cylindrical_roller.residual import (
     add_to_ring,
     beside,
     on_ribs,
-    push_by_ribs,
     report_outer,
     report_race,
     report_ribs,
@@ -30,29 +28,34 @@ from flexcage.contacts.evaluation import OUTER_RING, RACE_LAW, RACE_RUBS, REPORT
 from flexcage.contacts.race import meet_race, push_by_race, rub_race
 from flexcage.contacts.slices import Laws, normal_forces_of_lot
 from flexcage.contacts.state import AXIS, CENTRE, Q_SPIN, SPIN, VELOCITY, take_pose
-from flexcage.core.jit import VECTORISED, fields, part
+from flexcage.core.jit import VECTORISED, fields, outlined, part
 from flexcage.core.vectors import MOMENT, dot, row
-from flexcage.system.bending import (
+from flexcage.system.data import FAMILY_PARTS, INNER_RACE, OUTER_RACE
+from flexcage.system.motion import BendingMotion, bending_model, parts_type
+from flexcage.system.ring import inner_of, outer_of
+from flexcage.system.rings.modes import (
+    displace_by_modes,
+    mode_rows,
+    push_modes_by_element,
+    report_modes,
+)
+from flexcage.system.rings.races import (
     STEPS,
     TILT_PORT,
     after,
     at_once,
-    bend_rings,
     borne_of,
     close,
+    deflect_races,
     displace,
+    force_rows,
     guess,
     orbit_of,
     push_by_slopes,
-    ring_report,
-    ring_rows,
+    report_races,
     with_ring_weights,
 )
-from flexcage.system.data import FAMILY_PARTS, INNER_RACE, OUTER_RACE
-from flexcage.system.motion import BendingMotion, bending_model, parts_type
-from flexcage.system.ring import inner_of, outer_of
-from flexcage.system.ring_walls import bear_ribs, carry_ribs
-from flexcage.system.swinging import push_swings, swing, swing_report, swing_rows
+from flexcage.system.rings.sections import bear_ribs, carry_ribs
 
 BendingRollerModel = bending_model("BendingRollerModel", RollerModel, __name__)
 BendingRollerParts = parts_type("BendingRollerParts", BendingRollerModel, __name__)
@@ -60,105 +63,81 @@ BendingRollerParts = parts_type("BendingRollerParts", BendingRollerModel, __name
 
 def evaluate(t, y, yd, d, law, out, mode):
     """Residual into ``out``, as ``residual.evaluate``."""
-    at, rings = fields(d.places), fields(d.rings)
+    at, races = fields(d.places), fields(d.rings)
     Z, q, u = at.elements, y[: at.bodies_q], y[at.u : at.bodies_u]
     s = y[at.loads :]
     asked = RESIDUAL if mode == OUTER_RING else mode
     set_bodies(y, d, asked)
-    bend_rings(q, s, rings)
-    swing(q, u, y, d)
-    lot = fields(d.race_work).who.shape[0]
-    for first in range(0, Z if mode != OUTER_RING else 0, lot):
-        _inner_contacts((first, min(first + lot, Z)), y, s, d, law, mode)
-    for first in range(0, Z, lot):
-        _outer_contacts((first, min(first + lot, Z)), y, s, d, law, asked)
-    _outer_ribs(q, u, outer_of(y, d), d, law, asked)
+    deflect_races(q, s, races)
+    displace_by_modes(q, u, y, d)
+    if mode != OUTER_RING:
+        ring, modes = inner_of(y, d), fields(d.inner_modes)
+        _on_race(INNER_RACE, y, s, ring, fields(d.inner), modes, d, law, mode)
+        _on_its_ribs(INNER_RACE, q, u, ring, fields(d.rib), modes, d, law, mode)
+    ring, modes = outer_of(y, d), fields(d.outer_modes)
+    _on_race(OUTER_RACE, y, s, ring, fields(d.outer), modes, d, law, asked)
+    _on_its_ribs(OUTER_RACE, q, u, ring, fields(d.outer_rib), modes, d, law, asked)
     for i in range(Z):
         take_pose(fields(d.scratch).poses[i], fields(d.pose))
-        push_swings(i, d)
+        push_modes_by_element(i, d)
         push_by_slopes(i, q, y, d)
     if mode >= REPORT:
         report_outer(d)
     if mode == OUTER_RING:
         return
     if mode >= REPORT:
-        ring_report(u, q, s, rings, fields(d.report))
-        swing_report(q, u, y, d)
-    ring_rows(s, yd[at.loads :], rings, out[at.loads :])
+        report_races(u, q, s, races, fields(d.report))
+        report_modes(q, u, y, d)
+    force_rows(s, yd[at.loads :], races, out[at.loads :])
     law[POCKETS](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
     roller_rows(y, yd, d, out, mode)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
-    swing_rows(y, yd, d, out)
+    mode_rows(y, yd, d, out, mode)
 
 
-@part
-def _inner_contacts(span, y, s, d, law, mode):
-    """Rollers span[0] to before span[1] on the inner race and its ribs."""
-    pose, pair, work, rings = fields(d.pose), fields(d.pair), fields(d.scratch), fields(d.rings)
-    side, rw, memory = fields(d.inner), fields(d.race_work), fields(d.memory)
-    q, ring, radius = y[: fields(d.places).bodies_q], inner_of(y, d), fields(d.bodies).radius
-    turn, count = ring.q[Q_SPIN], 0
-    for i in range(span[0], span[1]):
-        take_pose(work.poses[i], pose)
-        at = rw.partner[count]
-        beside(i, q, ring, d, at)
-        push_by_ribs(i, at, fields(d.rib), ring.b, d, law, mode)
-        displace(at, guess(INNER_RACE, i, s, rings), rings.way)
-        if meet_race(count, pose, side, radius[i], turn, memory.race[i, INNER_RACE], rw):
-            rw.who[count] = i
-            count += 1
-    _press(count, INNER_RACE, side, s, d, Laws(law[RACE_LAW], law[RACE_RUBS]))
-    for m in range(count):
-        i = rw.who[m]
-        take_pose(work.poses[i], pose)
-        push_by_race(m, pose, side, radius[i], turn, rw, pair, mode, work.sums)
-        beside(i, q, ring, d, rw.partner[m])  # forces act on its seat
-        add_to_ring(i, rw.partner[m, CENTRE], ring.b, d, mode)
-        if mode >= REPORT:
-            report_race(i, INNER_RACE, work.sums, fields(d.report))
+@outlined
+def _on_race(side, y, s, ring, race, modes, d, law, mode):
+    """All rollers on the race of a ring (``side``), in lots."""
+    pose, pair, work, races = fields(d.pose), fields(d.pair), fields(d.scratch), fields(d.rings)
+    rw, memory, turn = fields(d.race_work), fields(d.memory).race, ring.q[Q_SPIN]
+    q, radius, lot = y[: fields(d.places).bodies_q], fields(d.bodies).radius, rw.who.shape[0]
+    laws, first = Laws(law[RACE_LAW], law[RACE_RUBS]), 0
+    while first < work.poses.shape[0]:
+        count, first, last = 0, first + lot, min(first + lot, work.poses.shape[0])
+        for i in range(first - lot, last):
+            take_pose(work.poses[i], pose)
+            at = rw.partner[count]
+            beside(i, q, ring, d, at)
+            displace(at, guess(side, i, s, races), races.way)
+            _carry(i, at, modes, races.way)
+            if meet_race(count, pose, race, radius[i], turn, memory[i, side], rw):
+                rw.who[count] = i
+                count += 1
+        _press(count, side, race, s, d, laws)
+        for m in range(count):
+            i = rw.who[m]
+            take_pose(work.poses[i], pose)
+            push_by_race(m, pose, race, radius[i], turn, rw, pair, mode, work.sums)
+            _bear(i, rw.partner[m, CENTRE], pair.wrench, modes)
+            beside(i, q, ring, d, rw.partner[m])  # forces act on its seat
+            add_to_ring(i, rw.partner[m, CENTRE], ring.b, d, mode)
+            if mode >= REPORT:
+                report_race(i, side, work.sums, fields(d.report))
 
 
-@part
-def _outer_contacts(span, y, s, d, law, mode):
-    """The same on the outer race."""
-    pose, pair, work, rings = fields(d.pose), fields(d.pair), fields(d.scratch), fields(d.rings)
-    side, rw, memory = fields(d.outer), fields(d.race_work), fields(d.memory)
-    q, ring, radius = y[: fields(d.places).bodies_q], outer_of(y, d), fields(d.bodies).radius
-    turn, count = ring.q[Q_SPIN], 0
-    for i in range(span[0], span[1]):
-        take_pose(work.poses[i], pose)
-        at = rw.partner[count]
-        beside(i, q, ring, d, at)
-        displace(at, guess(OUTER_RACE, i, s, rings), rings.way)
-        _carry(i, at, d)
-        if meet_race(count, pose, side, radius[i], turn, memory.race[i, OUTER_RACE], rw):
-            rw.who[count] = i
-            count += 1
-    _press(count, OUTER_RACE, side, s, d, Laws(law[RACE_LAW], law[RACE_RUBS]))
-    for m in range(count):
-        i = rw.who[m]
-        take_pose(work.poses[i], pose)
-        push_by_race(m, pose, side, radius[i], turn, rw, pair, mode, work.sums)
-        _bear(i, rw.partner[m, CENTRE], d)
-        beside(i, q, ring, d, rw.partner[m])  # forces act on its seat
-        add_to_ring(i, rw.partner[m, CENTRE], ring.b, d, mode)
-        if mode >= REPORT:
-            report_race(i, OUTER_RACE, work.sums, fields(d.report))
-
-
-@part
-def _outer_ribs(q, u, ring, d, law, mode):
-    """Rollers on the outer ring's ribs, if it has any, which swing with it."""
-    pose, work = fields(d.pose), fields(d.scratch)
-    ribs, at = fields(d.outer_rib), fields(d.race_work).partner[0]
+@outlined
+def _on_its_ribs(side, q, u, ring, ribs, modes, d, law, mode):
+    """Rollers on a ring's ribs, if it has any, which follow its modes."""
     if ribs.end <= ribs.first:
         return
+    pose, work, at = fields(d.pose), fields(d.scratch), fields(d.race_work).partner[0]
+    moment = fields(d.rings).moment[side]
     for i in range(work.poses.shape[0]):
         take_pose(work.poses[i], pose)
         beside(i, q, ring, d, at)
-        carry_ribs(i, orbit_of(q, u, i), at, d)
+        carry_ribs(i, orbit_of(q, u, i), at, modes)
         if on_ribs(i, at, ribs, d, law, mode):
-            bear_ribs(i, at[CENTRE], d)
+            bear_ribs(i, at[CENTRE], fields(d.pair).wrench, modes, moment)
             beside(i, q, ring, d, at)
             add_to_ring(i, at[CENTRE], ring.b, d, mode)
             if mode >= REPORT:
@@ -166,28 +145,26 @@ def _outer_ribs(q, u, ring, d, law, mode):
 
 
 @part
-def _carry(i, at, d):
-    """Move the outer ring ``at`` beside roller i as its race does that swings: it tilts about its
-    place beneath the roller."""
-    swings, way = fields(d.swings), fields(d.rings).way
-    if swings.push.shape[0] == 0:
+def _carry(i, at, modes, way):
+    """Move the ring ``at`` beside roller i as its modes move its race: it tilts about its place
+    beneath the roller."""
+    if modes.push.shape[0] == 0:
         return
     for p in range(2):
         if way[p] == TILT_PORT:
-            at[SPIN, 2] += swings.rate[i, p]
-            at[VELOCITY, 0] += swings.rate[i, p] * at[CENTRE, 1]
+            at[SPIN, 2] += modes.rate[i, p]
+            at[VELOCITY, 0] += modes.rate[i, p] * at[CENTRE, 1]
         else:
-            at[VELOCITY, way[p]] += swings.rate[i, p]
+            at[VELOCITY, way[p]] += modes.rate[i, p]
 
 
 @part
-def _bear(i, centre, d):
-    """What the outer race that swings bears of roller i at its ports, radially and in tilt."""
-    total, wrench = fields(d.swings).total, fields(d.pair).wrench
-    if fields(d.swings).push.shape[0] == 0:
+def _bear(i, centre, wrench, modes):
+    """What a race with modes bears of roller i at its ports, radially and in tilt."""
+    if modes.push.shape[0] == 0:
         return
-    total[i, 0] = -wrench[1]
-    total[i, 1] = -(wrench[MOMENT + 2] + centre[0] * wrench[1])
+    modes.total[i, 0] = -wrench[1]
+    modes.total[i, 1] = -(wrench[MOMENT + 2] + centre[0] * wrench[1])
 
 
 @part

@@ -33,14 +33,14 @@ from flexcage.system.begun import Advance, Start, StaticStart
 from flexcage.system.constraints import OFF, no_rows
 from flexcage.system.data import INNER_RACE, OUTER_RACE
 from flexcage.system.layout import Layout
-from flexcage.system.left_behind import left_by_ribs
 from flexcage.system.newton import assemble, newton_step
 from flexcage.system.problem import Bearing
 from flexcage.system.ring import CLEARANCE
-from flexcage.system.ring_walls import lands_follow
-from flexcage.system.rings_in_motion import MovingRings, held_rings
+from flexcage.system.rings.left_out import left_by_ribs
+from flexcage.system.rings.modes import standing
+from flexcage.system.rings.moving import MovingRings, held_rings
+from flexcage.system.rings.sections import lands_follow
 from flexcage.system.start import made_room
-from flexcage.system.swinging import standing
 
 _SMALL = 1e-7  # of the load: where an equilibrium is accepted
 _BALANCED = 1e-6  # of the load: what may stay unbalanced at last
@@ -471,17 +471,18 @@ def roller_start_between_bent_rings(
     assert bearing.rings is not None, "rings bend as in a static solution"
     held, model = copy(bearing), bearing.data.model
     rings = held_rings(bearing.rings)
-    stands = standing(bearing.layout.elements, model.swings, bearing.rings.at_start)
-    still = lands_follow(model._replace(rings=rings, swings=stands))
-    held.layout = replace(bearing.layout, ring_modes=0)
-    held.data = bearing.data._replace(model=still, places=held.layout.places)
+    inner, outer = (
+        standing(bearing.layout.elements, made, at)
+        for made, at in zip((model.inner_modes, model.outer_modes), bearing.rings.at_start)
+    )
+    still = lands_follow(model._replace(rings=rings, inner_modes=inner, outer_modes=outer))
+    held.data = bearing.data._replace(model=still)
     start = roller_start(held, limit_force=limit_force, statics=None, advance=advance)
     _Frictionless(held, model.pocket.offset).residual(start.y, start.yd)
-    y, yd = bearing.rings.begun(start.y, bearing.layout), np.zeros(bearing.layout.size)
-    yd[: len(start.yd)] = start.yd
+    y = bearing.rings.begun(start.y, bearing.layout)
     bearing.layout.ring_forces(y)[:] = rings.force
     told = (*start.warnings, *_left_by_ribs(bearing.rings, model))
-    return replace(start, y=y, yd=yd, warnings=told)
+    return replace(start, y=y, warnings=told)
 
 
 def _left_by_ribs(moving: MovingRings, model: RollerModel) -> Iterator[str]:

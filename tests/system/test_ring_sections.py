@@ -1,15 +1,15 @@
-"""Ribs and lands of an outer ring that swings, in a run."""
+"""Ribs and lands of rings with modes, in a run."""
 
 import numpy as np
 import pytest
 from bearing_runs import NUP, unbalanced
-from swinging_cases import at_rest, housing_file
+from ring_cases import at_rest, housing_file
 
 import flexcage
 from flexcage.stages import assembled_start, bearing_in_motion, cage_mesh
 from flexcage.static import solve_static
 from flexcage.system.data import IN_CONTACTS, STRAIN
-from flexcage.system.left_behind import left_behind, left_by_lands, left_by_ribs
+from flexcage.system.rings.left_out import left_out, left_by_lands, left_by_ribs
 from flexcage.system.statics.options import AT_START
 
 ARCS = {
@@ -48,13 +48,13 @@ class Bent:
         if lands:
             reach = self.bearing.data.model.land.clearance + 8e-6
             self.layout.q(self.y)["cage"][1:] = reach * np.array([0.8, 0.6])
-        a = self.layout.ring_coordinates(self.y)[0]
-        a[:] += 2e-8 * rng.standard_normal(len(a))
+        a = self.layout.q(self.y)["outer_modes"]
+        a += 2e-8 * rng.standard_normal(len(a))
 
     def forces(self, y=None):
-        """Forces on the ring's coordinates, from their rows."""
+        """Forces on the ring's modes, from their rows."""
         out = self.bearing.residual(0.0, self.y if y is None else y, self.yd)
-        return -self.layout.ring_coordinates(out)[1]
+        return -self.layout.u(out)["outer_modes"]
 
     def energy(self, y):
         self.bearing.residual(0.0, y, self.yd, 2)
@@ -77,14 +77,14 @@ def test_ribs_and_lands_push_along_the_slopes_of_their_energy(preset, more, wher
     forces, y, layout = bent.forces(), bent.y, bent.layout
     work = bent.bearing.data.work.scratch
     wrenches, pushed = work.wrenches.copy(), layout.border(work.border.copy())
-    assert np.abs(bent.bearing.data.model.swings.borne).max() > 1.0
+    assert np.abs(bent.bearing.data.model.outer_modes.borne).max() > 1.0
     assert np.abs(unbalanced(bent.bearing, layout.q(y)["elements"])).max() < 1e-12
     scale = np.abs(forces).max()
-    for m in range(layout.ring_modes):
+    for m in range(len(forces)):
         ends = []
         for h in (1e-12, -1e-12):
             moved = y.copy()
-            layout.ring_coordinates(moved)[0, m] += h
+            layout.q(moved)["outer_modes"][m] += h
             ends.append(bent.energy(moved))
         assert -(ends[0] - ends[1]) / 2e-12 == pytest.approx(forces[m], abs=2e-4 * scale), m
     if "aside" in where:
@@ -137,7 +137,7 @@ def test_a_warning_names_what_a_land_leaves_out(seat, clearance, told):
         "cage.guidance": "inner", "contacts.land.clearance": clearance,
     })  # fmt: skip
     bearing = bearing_in_motion(case, cage_mesh(case), None)
-    (side, *_), left = bearing.rings.start.rings, left_behind(bearing.rings)
+    (side, *_), left = bearing.rings.start.rings, left_out(bearing.rings)
     assert np.array_equal(left[0], side.deflection[:, :2]) and not left[1].any()
     sentences = list(left_by_lands(bearing.rings, bearing.data.model.land))
     assert len(sentences) == told
@@ -153,7 +153,7 @@ def test_ribs_leave_out_little_of_a_ring_on_arcs():
     case = at_rest("N1013", **RIBS, **ARCS, **{"load.axial": 600.0})
     moving = bearing_in_motion(case, cage_mesh(case), None).rings
     whole = np.abs(moving.start.rings[0].deflection[:, 1:]).max(axis=0)
-    rest = np.abs(left_behind(moving)[1]).max(axis=0)
+    rest = np.abs(left_out(moving)[1]).max(axis=0)
     assert 0.0 < rest[0] < 0.1 * whole[0] and rest[1] < whole[1]
     assert not list(left_by_ribs(moving, 1, 2e-3, 60e-6))
     (said,) = left_by_ribs(moving, 1, 2e-3, 1e-9)

@@ -7,65 +7,76 @@ from dataclasses import dataclass
 import numpy as np
 
 from flexcage.modes.ring import natural_frequencies
-from flexcage.system.bending import C11, C22, POINTS, RingsData, rigid_rings
 from flexcage.system.layout import Layout
-from flexcage.system.ring_modes import (
+from flexcage.system.rings.low_modes import (
     left_over,
     low_modes,
+    modes_of_ring,
     ring_coordinates,
-    swings_of_ring,
 )
+from flexcage.system.rings.modes import RingModes, no_modes
+from flexcage.system.rings.races import C11, C22, POINTS, RacesData, rigid_rings
 from flexcage.system.statics.rings import BentRing, Rings
 from flexcage.system.statics.solution import StaticSolution
-from flexcage.system.swinging import Swings, no_swings
 
 SIDES = ("inner", "outer")
 _FAINT = 1e-4  # share of a deflection that elements far away make and may be left out
 _LOW = 3  # waves around a ring up to which its frequencies are looked at
-_STIFF = 10e3  # [Hz] assumption: rings with lower frequencies are told of
+_STIFF = 10e3  # [Hz] assumption: rings with lower frequencies have modes
+_OVAL = 2  # waves from which on a ring's motion is no rigid one, and couples with none
 
 
 @dataclass(frozen=True, eq=False)
 class MovingRings:
     """The rings that bend in a run: what kernels read, and the static solution at the start."""
 
-    data: RingsData
-    swings: Swings  # coordinates of the outer ring on supports
-    at_start: np.ndarray  # (M,) where they are
+    data: RacesData
+    modes: tuple[RingModes, RingModes]  # of inner and outer ring
+    at_start: tuple[np.ndarray, np.ndarray]  # (M,) of each: where they are
     start: StaticSolution
     warnings: tuple[str, ...] = ()  # sentences
 
+    @property
+    def counts(self) -> tuple[int, int]:
+        """So many modes of inner and outer ring."""
+        return len(self.at_start[0]), len(self.at_start[1])
+
     def begun(self, y: np.ndarray, layout: Layout) -> np.ndarray:
-        """y, without coordinates or with any, with those of the start."""
-        start = np.zeros(layout.size)
-        start[: min(len(y), layout.size)] = y
-        layout.ring_coordinates(start)[:] = np.stack([self.at_start, 0.0 * self.at_start])
-        return start
+        """A copy of y, with the modes where they are at the start."""
+        begun = y.copy()
+        for name, at in zip(SIDES, self.at_start):
+            layout.q(begun)[f"{name}_modes"][:] = at
+        return begun
 
 
 def moving_rings(rings: Rings, solution: StaticSolution, *, stands: bool = True) -> MovingRings:
     """Rings as they are asked for, reduced as in the static ``solution`` of the run's start: its
     heaviest contact says over what extent, and its contact angles where, races are pressed.
-    ``stands``: does the seat of the outer ring stand? Then that ring swings where it is soft."""
+    ``stands``: does the seat of the outer ring stand? A ring that is soft has modes: on a seat that
+    moves those that are no rigid motion."""
     count = len(solution.elements.azimuth)
-    data, swings, at_start = rigid_rings(count), no_swings(count), np.zeros(0)
+    data, nothing = rigid_rings(count), np.zeros(0)
+    found, at_start = [no_modes(count), no_modes(count)], [nothing, nothing]
     told: list[str] = []
     for bent in solution.rings:
-        spec = (rings.inner, rings.outer)[SIDES.index(bent.side)]
-        yields = bent.seated.reduction.compliance
-        n, lowest = _lowest(bent)
-        if len(bent.bears) or (bent.side == "outer" and stands and lowest < _STIFF):
-            modes = low_modes(bent.seated.reduction)
-            made = ring_coordinates(bent, modes)
-            swings = swings_of_ring(bent.seated, modes, made, spec.relaxation)
-            yields, at_start = left_over(bent.seated.reduction, modes), made.at_start
-        elif lowest < _STIFF:
+        side, reduction = SIDES.index(bent.side), bent.seated.reduction
+        spec, least = (rings.inner, rings.outer)[side], 0 if side and stands else _OVAL
+        yields = reduction.compliance
+        if len(bent.bears) or _lowest(bent, least, _LOW)[1] < _STIFF:
+            low = low_modes(reduction, least=least)
+            made = ring_coordinates(bent, low)
+            found[side] = modes_of_ring(bent.seated, low, made, spec.relaxation)
+            yields, at_start[side] = left_over(reduction, low), made.at_start
+        n, lowest = _lowest(bent, 0, least - 1) if least else (0, _STIFF)
+        if lowest < _STIFF:
             told.append(_too_soft(bent.side, n, lowest))
         _put(data, bent, yields, spec.relaxation)
-    return MovingRings(data, swings, at_start, solution, tuple(told))
+    return MovingRings(
+        data, (found[0], found[1]), (at_start[0], at_start[1]), solution, tuple(told)
+    )
 
 
-def _put(data: RingsData, bent: BentRing, yields: np.ndarray, relaxation: float) -> None:
+def _put(data: RacesData, bent: BentRing, yields: np.ndarray, relaxation: float) -> None:
     """A ring among the data, with a compliance (N + 1, 3, 3) that follows at once."""
     reduction, side = bent.seated.reduction, SIDES.index(bent.side)
     azimuth = 2.0 * np.pi * np.arange(POINTS) / POINTS
@@ -92,24 +103,26 @@ def _reach(table: np.ndarray, own: np.ndarray, elements: int) -> int:
     return int(np.count_nonzero(beyond > _FAINT))
 
 
-def _lowest(ring: BentRing) -> tuple[int, float]:
-    """Waves around a ring on its seat, and frequency [Hz], of its lowest mode."""
+def _lowest(ring: BentRing, least: int, most: int) -> tuple[int, float]:
+    """Waves around a ring on its seat, of ``least`` to ``most``, and frequency [Hz], of its lowest
+    mode."""
     reduction = ring.seated.reduction
-    found = [natural_frequencies(reduction.model, reduction.held, n, 1)[0] for n in range(_LOW + 1)]
-    n = int(np.argmin(found))
-    return n, float(found[n]) / (2.0 * np.pi)
+    waves = range(least, most + 1)
+    found = [natural_frequencies(reduction.model, reduction.held, n, 1)[0] for n in waves]
+    lowest = int(np.argmin(found))
+    return waves[lowest], float(found[lowest]) / (2.0 * np.pi)
 
 
 def _too_soft(side: str, n: int, lowest: float) -> str:
-    """Of a ring that would need its inertia."""
+    """Of a ring that would need its inertia in motions that couple with those of its seat."""
     return (
-        f"the {side} ring on its seat has a frequency of {lowest / 1e3:.2g} kHz ({n} waves around "
-        "it), but in a run a ring bends without inertia of its own: vibrations above a third of "
-        "that are not right."
+        f"the {side} ring vibrates on its seat as a whole at {lowest / 1e3:.2g} kHz ({n} waves "
+        "around it), but in a run the seat moves, and the ring's mass moves with it: vibrations "
+        "above a third of that are not right."
     )
 
 
-def held_rings(moving: MovingRings) -> RingsData:
+def held_rings(moving: MovingRings) -> RacesData:
     """Data of races that stay bent as they are at the start, whatever presses."""
     held = rigid_rings(moving.data.moment.shape[1])
     held.way[:] = moving.data.way

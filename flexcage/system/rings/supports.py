@@ -1,7 +1,7 @@
 """Forces of supports that hold a ring here and there, in kernels.
 
-Supports press on the ring and are not entered, or hold it both ways: see ``swinging``, whose
-``Swings`` have their compliance and room to work.
+Supports press on the ring and are not entered, or hold it both ways: see ``modes``, whose
+``RingModes`` have their compliance and room to work.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ _CLOSE = 1e-12  # of the largest displacement, by which a support may be entered
 
 
 @kernel
-def press_supports(swings):
+def press_supports(modes):
     """Forces ``press`` of the supports that would be entered by ``room``.
 
     Of supports that only press this is a linear complementarity problem with a positive definite
@@ -23,20 +23,20 @@ def press_supports(swings):
     long as that helps, else the last of them, which ends (J. J. Judice and F. M. Pires, Computers
     and Operations Research 21 (1994) 587; K. G. Murty, Opsearch 11 (1974) 9).
     """
-    count, room, press, bears = swings.room.shape[0], swings.room, swings.press, swings.bears
+    count, room, press, bears = modes.room.shape[0], modes.room, modes.press, modes.bears
     largest = 0.0
     for k in range(count):
         largest = max(largest, abs(room[k]))
-        bears[k] = 1 if swings.holds != 0 or room[k] > 0.0 else 0
+        bears[k] = 1 if modes.holds != 0 or room[k] > 0.0 else 0
     least, tries = count + 1, _TRIES
     for _ in range(10 * count + 10):
-        solve_pressed(room, press, swings)
-        if swings.holds != 0:
+        solve_pressed(room, press, modes)
+        if modes.holds != 0:
             return
         wrong, last = 0, 0
         for k in range(count):
-            swings.step[k] = _amiss(k, _CLOSE * largest, swings)
-            if swings.step[k] > 0.0:
+            modes.step[k] = _amiss(k, _CLOSE * largest, modes)
+            if modes.step[k] > 0.0:
                 wrong, last = wrong + 1, k
         if wrong == 0:
             return
@@ -44,33 +44,33 @@ def press_supports(swings):
         tries = _TRIES if wrong < least else tries - 1
         least = min(least, wrong)
         for k in range(count):
-            if swings.step[k] > 0.0 and (at_once or k == last):
+            if modes.step[k] > 0.0 and (at_once or k == last):
                 bears[k] = 1 - bears[k]
 
 
 @part
-def _amiss(k, close, swings):
+def _amiss(k, close, modes):
     """Positive if support k pulls, or is entered."""
-    if swings.bears[k] != 0:
-        return -swings.press[k]
-    entered = swings.room[k] - close
-    for l in range(swings.press.shape[0]):
-        entered -= swings.between[k, l] * swings.press[l]
+    if modes.bears[k] != 0:
+        return -modes.press[k]
+    entered = modes.room[k] - close
+    for l in range(modes.press.shape[0]):
+        entered -= modes.between[k, l] * modes.press[l]
     return entered
 
 
 @kernel
-def solve_pressed(room, press, swings):
+def solve_pressed(room, press, modes):
     """Forces of the supports that bear, which are not entered; those of the others are none."""
-    kept, L, n = swings.kept, swings.factor, 0
+    kept, L, n = modes.kept, modes.factor, 0
     for k in range(room.shape[0]):
         press[k] = 0.0
-        if swings.bears[k] != 0:
+        if modes.bears[k] != 0:
             kept[n] = k
             n += 1
     for r in range(n):
         for c in range(r + 1):
-            x = swings.between[kept[r], kept[c]]
+            x = modes.between[kept[r], kept[c]]
             for l in range(c):
                 x -= L[r, l] * L[c, l]
             L[r, c] = sqrt(x) if r == c else x / L[c, c]

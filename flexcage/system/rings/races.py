@@ -41,12 +41,12 @@ STEP = POINTS / (2.0 * pi)  # points a radian
 LEAST = 0.25  # determinant of Newton's step: contacts far stiffer than H is meant for take less
 STEPS = 3  # of Newton's method at the most, under an element that strikes
 NEAR = 0.02  # of the force: where the last of them may begin; what it leaves is of second order
-AXIAL_PORT, RADIAL_PORT, TILT_PORT = range(3)  # in ``RingsData.way``
+AXIAL_PORT, RADIAL_PORT, TILT_PORT = range(3)  # in ``RacesData.way``
 # compliances of the two ports, and their slopes over the azimuth
 C11, C12, C22, D11, D12, D22 = range(6)
 
 
-class RingsData(NamedTuple):
+class RacesData(NamedTuple):
     """Both rings, inner and outer, at their ports; those behind ``rate`` are workspaces."""
 
     bends: np.ndarray  # (2,) 1 if the ring bends
@@ -66,10 +66,10 @@ class RingsData(NamedTuple):
     between: np.ndarray  # (2, Z (Z-1)/2, 6) C and its slope between them
 
 
-def rigid_rings(elements: int) -> RingsData:
+def rigid_rings(elements: int) -> RacesData:
     """Data of rings that do not bend, in the types that kernels take."""
     z, pairs = np.zeros, elements * (elements - 1) // 2
-    return RingsData(
+    return RacesData(
         z(2, np.int64), np.array([RADIAL_PORT, TILT_PORT]), z((2, POINTS, 6)), z(2, np.int64),
         z((2, 3)), z((2, 3)), z((2, elements, 2)), np.ones((2, 2)), np.ones(2),
         z((2, elements, 2)), z((2, elements)), z((2, elements, 2)), z(2, np.int64),
@@ -84,7 +84,7 @@ def force_at(side, i, Z):
 
 
 @part
-def bend_rings(q, s, rings):
+def deflect_races(q, s, rings):
     """Deflections of the races under the forces s, at the azimuths of the elements (coordinates q),
     and the moments of slopes; contact forces are none yet."""
     Z = rings.moment.shape[1]
@@ -224,7 +224,7 @@ def _push_along(qi, ring, force, i, d):
 
 
 @part
-def ring_rows(s, sd, rings, out):
+def force_rows(s, sd, rings, out):
     """Rows of the forces that rings bear: s' = (F - s)/tau."""
     Z = rings.moment.shape[1]
     for side in range(2):
@@ -242,7 +242,7 @@ def orbit_of(q, u, i):
 
 
 @part
-def ring_report(u, q, s, rings, rep):
+def report_races(u, q, s, rings, rep):
     """Energy of rings that bend, and the power that they lose, of elements with coordinates q and
     velocities u."""
     Z = rings.moment.shape[1]
@@ -277,17 +277,17 @@ def ring_report(u, q, s, rings, rep):
 def with_ring_weights(
     weights: Callable[[Any, Layout, float], np.ndarray],
 ) -> Callable[[Any, Layout, float], np.ndarray]:
-    """``Motion.error_weights`` with those of the forces that rings bear and of the coordinates that
-    swing: what displaces a race by the ``length``."""
+    """``Motion.error_weights`` with those of the forces that rings bear and of their modes: what
+    displaces a race by the ``length``."""
 
     def with_rings(model: Any, layout: Layout, length: float) -> np.ndarray:
-        weight, rings = weights(model, layout, length), model.rings
-        moved = rings.own[:, [C11, C22]] * rings.reach
+        weight, races = weights(model, layout, length), model.rings
+        moved = races.own[:, [C11, C22]] * races.reach
         layout.ring_forces(weight)[:] = moved[:, None] / length
-        if layout.ring_modes:
-            crest = np.abs(model.swings.shape * rings.reach[OUTER_RACE]).max(axis=1)
-            a, v = np.moveaxis(layout.ring_coordinates(weight), -2, 0)
-            a[:], v[:] = crest / length, crest / (length * ERROR_RATE)
+        for side, name in enumerate(("inner_modes", "outer_modes")):
+            crest = np.abs(getattr(model, name).shape * races.reach[side]).max(axis=1, initial=0.0)
+            layout.q(weight)[name][:] = crest / length
+            layout.u(weight)[name][:] = crest / (length * ERROR_RATE)
         return weight
 
     return with_rings

@@ -1,6 +1,6 @@
 """What of a ring's bending its ribs and lands do not follow in a run, and when that matters.
 
-They follow the coordinates of an outer ring that swings (``ring_walls``), and else the seat. What
+They follow the modes of their ring (``sections``), and else the seat. What
 races yield beside that is left out: a warning says so where it is more than a tenth of a clearance.
 A film takes its ring as round.
 """
@@ -15,23 +15,22 @@ from flexcage.contacts.land import FILM, NONE, LandData
 from flexcage.contacts.ring_waves import COSINE, RADIALLY
 from flexcage.core.units import mm
 from flexcage.system.data import OUTER_RACE
-from flexcage.system.rings_in_motion import SIDES, MovingRings
+from flexcage.system.rings.moving import SIDES, MovingRings
 
 MATTERS = 0.1  # of a clearance
 _ROUND = 2  # waves around a ring from which on it is no longer round
 
 
-def left_behind(moving: MovingRings) -> np.ndarray:
+def left_out(moving: MovingRings) -> np.ndarray:
     """Deflections (2, Z, 2) of both races at their ports, at the start, that ribs and lands leave
     out."""
-    swings, found = moving.swings, np.zeros_like(moving.data.given)
+    found = np.zeros_like(moving.data.given)
     for bent in moving.start.rings:
         side = SIDES.index(bent.side)
-        found[side] = bent.deflection @ bent.seated.to_v
-        if side == OUTER_RACE and len(moving.at_start):
-            turn = np.multiply.outer(bent.azimuth, swings.harmonic)
-            waves = np.where(swings.quarter == COSINE, np.cos(turn), np.sin(turn))
-            found[side] -= (waves * moving.at_start) @ swings.shape
+        modes, at_start = moving.modes[side], moving.at_start[side]
+        turn = np.multiply.outer(bent.azimuth, modes.harmonic)
+        waves = np.where(modes.quarter == COSINE, np.cos(turn), np.sin(turn))
+        found[side] = bent.deflection @ bent.seated.to_v - (waves * at_start) @ modes.shape
     return found
 
 
@@ -42,14 +41,14 @@ def left_by_lands(moving: MovingRings, land: LandData) -> Iterator[str]:
     side = 0 if land.inner else OUTER_RACE
     way = moving.start.rings[0].seated.to_v.argmax(axis=0) if moving.start.rings else ()
     radial = [k for k, port in enumerate(way) if port == RADIALLY]
-    least = float(np.abs(left_behind(moving)[side][:, radial]).max(initial=0.0))
+    least = float(np.abs(left_out(moving)[side][:, radial]).max(initial=0.0))
     if least > MATTERS * land.clearance:
         yield _sentence(SIDES[side], "lands", least, land.clearance)
-    oval = _out_of_round(moving)
-    if land.kind == FILM and not land.inner and oval > MATTERS * land.clearance:
+    oval = _out_of_round(moving, side)
+    if land.kind == FILM and oval > MATTERS * land.clearance:
         yield (
-            f"the film on the cage's lands takes the outer ring as round, but at the start it is "
-            f"out of round by {mm(oval)}, {oval / land.clearance:.0%} of the lands' clearance; "
+            f"the film on the cage's lands takes the {SIDES[side]} ring as round, but at the start "
+            f"it is out of round by {mm(oval)}, {oval / land.clearance:.0%} of their clearance; "
             'contacts.land.kind = "dry" follows its shape.'
         )
 
@@ -57,16 +56,16 @@ def left_by_lands(moving: MovingRings, land: LandData) -> Iterator[str]:
 def left_by_ribs(moving: MovingRings, side: int, height: float, play: float) -> Iterator[str]:
     """Sentences on the ribs of a ring (``side``), which roller ends touch at a ``height`` [m] above
     its race; ``play`` [m] of a roller between both."""
-    (tilt,) = np.abs(left_behind(moving)[side][:, 1:]).max(axis=0, initial=0.0)
+    (tilt,) = np.abs(left_out(moving)[side][:, 1:]).max(axis=0, initial=0.0)
     if tilt * height > MATTERS * play:
         yield _sentence(SIDES[side], "ribs", float(tilt * height), play)
 
 
-def _out_of_round(moving: MovingRings) -> float:
-    """By how much at the most the outer ring's radius differs from a circle's at the start [m]."""
-    swings = moving.swings
-    crest = np.abs(swings.section[:, RADIALLY] * moving.at_start)
-    return float(crest[swings.harmonic >= _ROUND].sum())
+def _out_of_round(moving: MovingRings, side: int) -> float:
+    """By how much at the most a ring's radius differs from a circle's at the start [m]."""
+    modes = moving.modes[side]
+    crest = np.abs(modes.section[:, RADIALLY] * moving.at_start[side])
+    return float(crest[modes.harmonic >= _ROUND].sum())
 
 
 def _sentence(side: str, what: str, moved: float, clearance: float) -> str:

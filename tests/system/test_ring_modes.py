@@ -1,11 +1,11 @@
-"""Outer rings on supports, and in housings that yield, in a run."""
+"""Rings with modes, on supports and on soft seats, and housings that yield, in a run."""
 
 from itertools import product
 
 import numpy as np
 import pytest
 from bearing_runs import unbalanced
-from swinging_cases import LOADS, at_rest, case_of, housing_file
+from ring_cases import LOADS, at_rest, case_of, housing_file
 
 import flexcage
 from flexcage.bearings import sections_of, statics_of
@@ -17,14 +17,14 @@ from flexcage.modes.ring import Held, reduce_ring
 from flexcage.stages import assembled_start, bearing_in_motion, cage_mesh
 from flexcage.static import solve_static
 from flexcage.stress.rings import ring_field
-from flexcage.system.ring_modes import CARRIED, left_over, low_modes
-from flexcage.system.rings_in_motion import moving_rings
+from flexcage.system.rings.low_modes import CARRIED, left_over, low_modes
+from flexcage.system.rings.moving import moving_rings
 from flexcage.system.spec import Load
 from flexcage.system.statics.options import AT_START
 from flexcage.system.statics.rings import Rings
 from flexcage.system.statics.solve import solve_bearing
-from flexcage.system.supports import press_supports
-from flexcage.system.swinging import deflect, swings_of
+from flexcage.system.rings.supports import press_supports
+from flexcage.system.rings.modes import deflect, modes_of
 
 SEATS = {
     "N1013": ("arcs", (40.0, -40.0)),
@@ -70,22 +70,22 @@ def test_supports_press_and_are_not_entered(holds):
         root = rng.standard_normal((6, 6))
         between = root @ root.T + 0.05 * np.eye(6)
         room = rng.standard_normal(6)
-        swings = swings_of(
-            1, none, none, np.zeros((0, 2)), np.zeros((0, 3)), np.zeros((0, 0)), nothing,
+        modes = modes_of(
+            1, none, none, np.zeros((0, 2)), np.zeros((0, 3)), nothing, nothing, np.zeros((0, 0)),
             azimuth=np.zeros(6), between=between, holds=holds,
         )  # fmt: skip
-        swings.room[:] = room
-        press_supports(swings)
+        modes.room[:] = room
+        press_supports(modes)
         wanted = np.linalg.solve(between, room) if holds else brute_force(between, room)
-        assert swings.press == pytest.approx(wanted, rel=1e-9, abs=1e-12)
-        sets.add(tuple(swings.press > 0.0))
+        assert modes.press == pytest.approx(wanted, rel=1e-9, abs=1e-12)
+        sets.add(tuple(modes.press > 0.0))
     assert len(sets) > 15  # of different supports
 
 
 # --- modes ---------------------------------------------------------------------------------------
 
 
-def test_thin_ring_swings_as_in_closed_form():
+def test_modes_of_a_thin_ring_are_those_in_closed_form():
     """Radial shapes of unit modal mass of a ring that does not stretch, u_r = n u_psi, to 2 %:
     m/2 (1 + 1/n^2) a'^2 (S. S. Rao, Vibration of Continuous Systems, 9); what modes leave of the
     compliance is little, and positive."""
@@ -124,19 +124,19 @@ def test_what_kernels_read_is_the_static_solution(preset):
     moving = moving_rings(rings, solution)
     q, s = np.zeros((count, 6)), np.zeros((2, count, 2))
     q[:, 2], s[1] = ring.azimuth, ring.force
-    data, swings = moving.data, moving.swings
-    deflect(q.ravel(), s.ravel(), moving.at_start, data, swings)
+    data, modes, at_start = moving.data, moving.modes[1], moving.at_start[1]
+    deflect(1, q.ravel(), s.ravel(), at_start, data, modes)
     a, b, c = data.half_space[1]
     found = data.deflection[1] - ring.force @ np.array([[a, b], [b, c]])
     wanted = ring.deflection @ ring.seated.to_v
     for port in range(2):
         differ_little(found[:, port], wanted[:, port], 5e-4)
-    differ_little(swings.press, ring.support_force, 1e-4)
-    # coordinates rest: supports and elements balance their springs
-    pushed = (moving.swings.stiffness @ moving.at_start) - swings.push
-    waves = np.where(swings.quarter == 0, *(f(np.outer(ring.azimuth, swings.harmonic))
-                                            for f in (np.cos, np.sin)))  # fmt: skip
-    borne = ((waves.T @ ring.force) * swings.shape).sum(axis=1)
+    differ_little(modes.press, ring.support_force, 1e-4)
+    # modes rest: supports and elements balance their springs
+    pushed = modes.stiffness * at_start - modes.push
+    waves = np.where(modes.quarter == 0, *(f(np.outer(ring.azimuth, modes.harmonic))
+                                           for f in (np.cos, np.sin)))  # fmt: skip
+    borne = ((waves.T @ ring.force) * modes.shape).sum(axis=1)
     differ_little(pushed, borne, 1e-4)
 
 
@@ -205,7 +205,8 @@ def test_forces_on_all_bodies_add_up_to_none(preset):
     elements = layout.q(y)["elements"]
     elements[:, 1] += 1e-6 * rng.standard_normal(len(elements))
     elements[:, 2] += 1e-3 * rng.standard_normal(len(elements))
-    layout.ring_coordinates(y)[:] *= 1.0 + 0.01 * rng.standard_normal(layout.ring_modes)
+    modes = layout.q(y)["outer_modes"]
+    modes *= 1.0 + 0.01 * rng.standard_normal(len(modes))
     bearing.residual(0.0, y, start.yd)
     rings = bearing.data.model.rings
     assert np.abs(rings.moment[1]).max() > 1e-6  # slopes push
@@ -213,7 +214,7 @@ def test_forces_on_all_bodies_add_up_to_none(preset):
 
 
 @pytest.mark.slow
-def test_a_ring_on_a_soft_foundation_swings():
+def test_a_ring_on_a_soft_foundation_has_modes():
     """At rest as the static solution, forces within 0.1 %, the deflection, which still swings a
     little, 0.2 %; energy is accounted for, 1e-4, under a load that swings, while rollers strike."""
     soft = {
