@@ -54,7 +54,7 @@ def begin_compiling(case: Case) -> Compiling | None:
     """
     if kernel_marks.kernels_cached(kernels_of(case)):
         return None
-    log.info("compiling the kernels for the first time: 20 to 30 seconds, once")
+    log.info(_what_is_compiled(case))
     pieces = _numbers()
     command = f"{SAME_PACKAGE}; from flexcage.core.orphan import end_with; "
     command += f"end_with({os.getpid()}); from flexcage.compiling import compile_pieces; "
@@ -76,6 +76,14 @@ def _numbers() -> int:
     os.write(end, bytes(range(MOST_PIECES)))
     os.close(end)
     return pieces
+
+
+def _what_is_compiled(case: Case) -> str:
+    """The message that kernels are compiled: which, and how long that takes."""
+    own_family = not type(case.bearing).__module__.startswith(f"{__name__.partition('.')[0]}.")
+    if own_family or not kernel_marks.own_kernels_cached(kernels_of(case)):
+        return "compiling the kernels for the first time: up to half a minute, once"
+    return "compiling the kernels that are new: a few seconds, once"
 
 
 def compile_pieces(text: str, *use: str) -> None:

@@ -151,7 +151,7 @@ def _moving_rings(specs: RingSections, seat: np.ndarray | None) -> MovingRings |
     return moving_rings(rings, solution, whole=_shake_on_their_seats(specs, seat))
 
 
-def _shake_on_their_seats(specs: CaseSections, seat: np.ndarray | None) -> tuple[bool, bool]:
+def _shake_on_their_seats(specs: RingSections, seat: np.ndarray | None) -> tuple[bool, bool]:
     """May inner and outer ring, which bend, move as a whole on their seats? So they do on those
     that stand, or are as heavy: a light one would follow the ring at once."""
     load, mount, bearing = specs.load, specs.mount, specs.bearing

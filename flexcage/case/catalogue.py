@@ -16,6 +16,7 @@ from flexcage.core.binding import near_names, told_elsewhere
 from flexcage.core.errors import InputError
 from flexcage.core.units import parse
 from flexcage.geometry.bearing import OTHER_DESIGNS
+from flexcage.geometry.full_complement import CAGED, FULL
 from flexcage.geometry.inside import Outline
 from flexcage.geometry.other_kinds import kind_of
 
@@ -43,7 +44,16 @@ def designations() -> list[str]:
 def find(text: str) -> Entry:
     """The bearing of a designation, "N 210" or "N210", "6205-2RS C3"; InputError if it is unknown,
     or known without ratings, or of a design that flexcage has not."""
-    name = re.sub(r"[\s_/-]", "", text.upper())
+    plain = re.sub(r"[\s_/-]", "", text.upper())
+    name = _of_makers_series(plain)
+    entry = _found(text, name)
+    if name == plain:
+        return entry
+    return replace(entry, source=f"{entry.source}; {text} means {name}")
+
+
+def _found(text: str, name: str) -> Entry:
+    """The bearing of a designation, by its ``name`` without blanks in the catalogue's series."""
     if name in _ratings():
         return _entry(name)
     if declined := kind_of(name):
@@ -63,14 +73,52 @@ def find(text: str) -> Entry:
             where="designation",
             value=text,
         )
+    if not _parsed(name) and (uncaged := _UNCAGED.fullmatch(name)):
+        raise InputError(
+            f"'{text}' is a full complement cylindrical roller bearing; the catalogue has those of "
+            f"the series {', '.join(_uncaged_series())} with bores of 20 to 60 mm, and any other "
+            f"one is described by {_uncaged_way(uncaged[1])}.",
+            where="designation",
+            value=text,
+        )
     if not _parsed(name) and (told := told_elsewhere(name, OTHER_DESIGNS)):
         raise InputError(f"'{text}': {told}{_same_rollers(name)}.", where="designation", value=text)
+    uncaged = _UNCAGED.fullmatch(name)
     raise _without_ratings(text, name) or InputError(
         f"'{text}' is not in the catalogue; {_nearest(name)}, and any other bearing is described "
-        f"by {WAY}.",
+        f"by {_uncaged_way(uncaged[1]) if uncaged else WAY}.",
         where="designation",
         value=text,
     )
+
+
+_UNCAGED = re.compile(r"(NCF|NJG|SL18|SL19)\d.*")  # a test holds the series against it
+
+
+def _uncaged_way(start: str) -> str:
+    """How a full complement of cylindrical rollers is described; ``start`` of its designation."""
+    design, race = ("NF", "outer") if start in ("NCF", "SL18") else ("NJ", "inner")
+    return (
+        f"flexcage new --type cylindrical_roller --design {design} --cage none --bore "
+        f'"..." --outside "..." --width "..." --{race}-race "..." --dynamic "..." --static "..."'
+    )
+
+
+def _uncaged_series() -> list[str]:
+    """The series of full complements, each with a maker's other names of it."""
+    full = {name: row for name, row in _series().items() if row["complement"] == FULL}
+    return [f"{name} ({', '.join(row['makers_series'].split())})" for name, row in full.items()]
+
+
+def _of_makers_series(name: str) -> str:
+    """A designation by the series of this catalogue, where a maker's own name of it is given, as
+    SL183010 is NCF3010, and NJ2308VH NJG2308VH."""
+    for series, row in _series().items():
+        for other in row["makers_series"].split():
+            full = "" if other.startswith("SL") else "VH"
+            if match := re.fullmatch(rf"{other}(\d\d)A?({full}.*)", name):
+                return f"{series}{match[1]}{match[2]}"
+    return name
 
 
 def _with_suffix(name: str) -> str:
@@ -112,7 +160,9 @@ def _of_a_design(name: str) -> str:
 
 
 def _series_of(design: str) -> list[str]:
-    return [name for name, row in _series().items() if design and row["design"] == design]
+    """Its series with a cage."""
+    caged = {name: row for name, row in _series().items() if row["complement"] == CAGED}
+    return [name for name, row in caged.items() if design and row["design"] == design]
 
 
 def _parsed(name: str) -> tuple[dict[str, str], str, str] | None:
@@ -130,13 +180,17 @@ def _without_ratings(text: str, name: str) -> InputError | None:
         return None
     series, code, suffix = parsed
     bore, outside, width = found
-    alike = next(row for n, row in _ratings().items() if n.startswith(series["series"]))
-    wanted = [option for column, option in _OPTIONS.items() if alike[column]]
-    angle = ""
+    wanted, angle = _wanted(series), ""
     if "--contact-angle" in wanted and suffix in _suffixes():
         wanted.remove("--contact-angle")
         angle = f' --contact-angle "{_suffixes()[suffix]} deg"'
     design = f" --design {series['design']}" if series["design"] else ""
+    if series["complement"] == FULL:
+        design += " --cage none"
+    if own := _all_rows().get(f"{series['series']}{code}"):  # with races, without ratings
+        races = [column for column in _OPTIONS if own[column]]
+        wanted = []
+        angle = "".join(f' {_OPTIONS[column]} "{own[column]} mm"' for column in races)
     others = [n for n in _ratings() if re.fullmatch(rf"{series['series']}{code}\D*", n)]
     has = f" (it has {', '.join(others)})" if others else ""
     return InputError(
@@ -146,6 +200,13 @@ def _without_ratings(text: str, name: str) -> InputError | None:
         where="designation",
         value=text,
     )
+
+
+def _wanted(series: dict[str, str]) -> list[str]:
+    """Options of what bearings of a series need beside dimensions and ratings."""
+    rows_of = (row for n, row in _all_rows().items() if n.startswith(series["series"]))
+    alike = next(rows_of)
+    return [option for column, option in _OPTIONS.items() if alike[column]]
 
 
 def _entry(name: str) -> Entry:
@@ -166,6 +227,8 @@ def _entry(name: str) -> Entry:
             design=series["design"] or None,
             inner_rib_diameter=_optional(row["inner_rib_mm"], "mm"),
             outer_rib_diameter=_optional(row["outer_rib_mm"], "mm"),
+            complement=series["complement"],
+            left_out=(series["left_out"],) if series["left_out"] else (),
         ),
         source=_sources()[row["source"]],
     )  # fmt: skip
@@ -176,14 +239,20 @@ def _optional(text: str, unit: str) -> float | None:
 
 
 @cache
-def _ratings() -> dict[str, dict[str, str]]:
+def _all_rows() -> dict[str, dict[str, str]]:
     return {row["designation"]: row for row in rows("ratings")}
+
+
+@cache
+def _ratings() -> dict[str, dict[str, str]]:
+    return {name: row for name, row in _all_rows().items() if row["static_kN"]}
 
 
 @cache
 def _series() -> dict[str, dict[str, str]]:
     """By series: type and design of bearing, diameter series of ISO 15, series of other designs
-    that have its rolling elements and races, and the suffix that numbers may leave out."""
+    that have its rolling elements and races, the suffix that numbers may leave out, whether they
+    are full complements, makers' own names of the series, and what of them is left out."""
     return {row["series"]: row for row in rows("series")}
 
 

@@ -9,10 +9,12 @@ from functools import cache
 
 from flexcage.case.catalogues import rows
 from flexcage.core.errors import InputError
+from flexcage.geometry.full_complement import CAGED, FILLED
 from flexcage.geometry.inside import ClearanceGroup, Outline
 
 _GROUPS = ("C2", "CN", "C3", "C4", "C5")
 _NORMAL = "CN"
+_FULL = ("V", "CV", "VH")  # without a cage
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,11 +29,16 @@ class Marked:
         out of the rest; InputError if such bearings have no groups of clearance."""
         known = _meanings()
         group = next((mark for mark in self.marks if mark in _GROUPS), None)
+        full = outline.complement == CAGED and any(mark in _FULL for mark in self.marks)
         return replace(
             outline,
             designation="-".join((self.bare, *self.marks)),
             clearance=None if group is None else _clearance(outline, group),
-            left_out=tuple(f"{m}: {known[m]}." for m in self.marks if m in known),
+            complement=FILLED if full else outline.complement,
+            left_out=(
+                *outline.left_out,
+                *(f"{m}: {known[m]}." for m in self.marks if m in known),
+            ),
         )
 
 

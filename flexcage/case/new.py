@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from math import ceil, floor, log10
 from typing import Any
 
@@ -13,26 +13,38 @@ from flexcage.bearings.family import inside_of
 from flexcage.cages.cage_type import proposal_of
 from flexcage.case.case import load_case
 from flexcage.case.presets import NAMED
+from flexcage.case.sections import NO_CAGE
 from flexcage.core.binding import default_of, did_you_mean, to_table
 from flexcage.core.errors import InputError, in_one_line
 from flexcage.core.units import describe
 from flexcage.geometry.bearing import BEARING_TYPES, Bearing, check_type
 from flexcage.geometry.cage import cages_of
-from flexcage.geometry.inside import Candidate, Outline, ProposedCage, in_short, ranked
+from flexcage.geometry.full_complement import CAGED, FILLED, FULL, filled, reason_of_count
+from flexcage.geometry.inside import (
+    Candidate,
+    Inside,
+    Outline,
+    ProposedCage,
+    in_short,
+    ranked,
+)
 from flexcage.geometry.kinematics import rolling_shares
 from flexcage.results.bootstrap import FEWEST
 from flexcage.results.options import OutputOptions
 
 SHOWN = 4  # candidates that are told
 _LOAD = 0.05  # of the dynamic rating
-_SPEED = 250.0  # m/min, speed [rpm] times pitch diameter: moderate for any bearing
+# m/min, speed [rpm] times pitch diameter: moderate for any bearing, and without a cage, where
+# surfaces of neighbours move against each other, for about half of makers' reference speeds
+_SPEED, _UNCAGED_SPEED = 250.0, 125.0
 _PASSES = 1.2 * FEWEST  # of elements in the settled part: enough for intervals
 
 
 @dataclass(frozen=True, kw_only=True)
 class NewCase:
     """A written case: its text, and what it was inferred from. ``candidates`` are those whose
-    ratings fit, best first; ``chosen`` is the first of them that leaves a cage its place."""
+    ratings fit, best first; ``chosen`` is the first of them that leaves a cage its place, with as
+    many elements as fit where they shall fill the circle instead (``FILLED``)."""
 
     name: str
     text: str
@@ -48,10 +60,14 @@ class NewCase:
 
 def new_case(outline: Outline, source: str, *, cage: str | None = None) -> NewCase:
     """The case of a bearing that a catalogue, named by ``source``, describes, with the type of
-    cage that such bearings commonly have or with another; InputError if there is no such bearing
-    or none of its cages is of that type."""
+    cage that such bearings commonly have, with another, or with "none"; InputError if there is no
+    such bearing or none of its cages is of that type."""
     check_type(outline.type)
     inside = inside_of(BEARING_TYPES[outline.type])
+    if cage == NO_CAGE and outline.complement == CAGED:
+        outline = replace(outline, complement=FILLED)
+    if outline.complement != CAGED:
+        return _without_cage(outline, source, inside, cage)
     candidates = ranked(inside.candidates(outline))
     _check_cage(cage, candidates[0].bearing.element)
     usual = inside.cages[outline.type]
@@ -78,6 +94,39 @@ def new_case(outline: Outline, source: str, *, cage: str | None = None) -> NewCa
         where="cage.type",
         value=cage,
     )
+
+
+def _without_cage(outline: Outline, source: str, inside: Inside, cage: str | None) -> NewCase:
+    """The case of a full complement: one with such ratings, or one that is rated with a cage."""
+    if cage not in (None, NO_CAGE):
+        raise InputError(
+            f"{_called(outline)} has no cage: its elements fill the pitch circle; leave --cage "
+            f"{cage} out.",
+            where="cage.type",
+            value=cage,
+        )
+    if outline.complement == FULL and inside.full is None:
+        kind = outline.type.replace("_", " ")
+        raise InputError(
+            f"The inside of a {kind} bearing is not inferred from ratings of a full complement; "
+            'give those with a cage without --cage none, then write model = "none" in [cage].',
+            where="cage.type",
+        )
+    if outline.complement == FULL:
+        assert inside.full is not None
+        candidates = ranked(inside.full(outline))
+        chosen = candidates[0]
+    else:
+        candidates = ranked(inside.candidates(outline))
+        bearing = filled(candidates[0].bearing, inside.count)
+        reasons = {**candidates[0].reasons, inside.count: reason_of_count(bearing)}
+        chosen = replace(candidates[0], bearing=bearing, reasons=reasons)
+    text = _text(outline, source, chosen, candidates, None)
+    load_case(text)
+    return NewCase(
+        name=case_name(outline), text=text, outline=outline, source=source, chosen=chosen,
+        candidates=candidates,
+    )  # fmt: skip
 
 
 def _called(outline: Outline) -> str:
@@ -109,17 +158,35 @@ def _findings(
     outline: Outline, source: str, chosen: Candidate, candidates: Sequence[Candidate]
 ) -> list[str]:
     static, dynamic = chosen.bearing.rating_names
-    others = [c for c in candidates if c is not chosen][: SHOWN - 1]
+    caged = candidates[0] if outline.complement == FILLED else chosen
+    others = [c for c in candidates if c is not caged][: SHOWN - 1]
     return [
         f"{chosen.bearing.name_and_size}",
         f"Ratings: {dynamic} = {_kn(outline.dynamic_rating)}, "
         f"{static} = {_kn(outline.static_rating)} ({source}).",
         *outline.left_out,
-        f"Inside, inferred: {_residuals(chosen)}.",
+        f"Inside, inferred: {_residuals(caged)}.",
+        *_play(outline, chosen),
         *(
             f"{'Next best' if k == 0 else '     then'}: {_residuals(c)}."
             for k, c in enumerate(others)
         ),
+    ]
+
+
+def _play(outline: Outline, chosen: Candidate) -> list[str]:
+    """On a full complement: how many elements, with what play, and what ratings."""
+    if outline.complement == CAGED:
+        return []
+    bearing = chosen.bearing
+    static, dynamic = bearing.rating_names
+    how = reason_of_count(bearing).removeprefix("assumption: ")
+    count = f"{bearing.element_count} {bearing.element}s"
+    if outline.complement == FULL:
+        return [f"No cage: {count}, {how}."]
+    return [
+        f"No cage: {count}, {how}; {static} = {_kn(bearing.static_rating)} by ISO 76, "
+        f"{dynamic} = {_kn(bearing.dynamic_rating)} by ISO 281. How they are filled in is left out."
     ]
 
 
@@ -140,20 +207,20 @@ def _kn(force: float) -> str:
 
 def _text(
     outline: Outline, source: str, chosen: Candidate, candidates: Sequence[Candidate],
-    proposed: ProposedCage,
+    proposed: ProposedCage | None,
 ) -> str:  # fmt: skip
     name, bearing = case_name(outline), chosen.bearing
     head = [f"# {in_one_line(line)}" for line in _findings(outline, source, chosen, candidates)]
     given = _given(outline)
     load = "axial" if outline.contact_angle else "radial"
-    speed = _speed(bearing.pitch_diameter)
+    speed = _speed(bearing.pitch_diameter, caged=proposed is not None)
     sections = [
         ("bearing", _entries(bearing, {"type": "", "designation": "", **given, **chosen.reasons})),
-        ("cage", [
-            ("model", '"flexible"', ""),
-            *_entries(proposed.cage, {"type": "", **proposed.reasons}),
-        ]),
-        ("drive", [("speed", f'"{speed} rpm"', "assumption: moderate")]),
+        ("cage", _cage(proposed)),
+        ("drive", [(
+            "speed", f'"{speed} rpm"',
+            "assumption: moderate" if proposed else "assumption: moderate without a cage",
+        )]),
         ("load", [(
             load, f'"{_two_digits(_LOAD * outline.dynamic_rating):g} N"',
             f"assumption: {_LOAD:.0%} of the dynamic rating",
@@ -172,6 +239,15 @@ def _text(
     for section, entries in sections:
         lines += ["", f"[{section}]", *_aligned(entries)]
     return "\n".join(lines) + "\n"
+
+
+def _cage(proposed: ProposedCage | None) -> list[tuple[str, str, str]]:
+    if proposed is None:
+        return [("model", f'"{NO_CAGE}"', "full complement: elements touch the next ones")]
+    return [
+        ("model", '"flexible"', ""),
+        *_entries(proposed.cage, {"type": "", **proposed.reasons}),
+    ]
 
 
 def _given(outline: Outline) -> dict[str, str]:
@@ -205,9 +281,9 @@ def _aligned(entries: Sequence[tuple[str, str, str]]) -> list[str]:
     return [f"{pair:<{wide}}# {reason}" if reason else pair for pair, reason in pairs]
 
 
-def _speed(pitch_diameter: float) -> int:
+def _speed(pitch_diameter: float, *, caged: bool) -> int:
     """Speed [rpm], to two digits."""
-    return int(_two_digits(_SPEED / pitch_diameter))
+    return int(_two_digits((_SPEED if caged else _UNCAGED_SPEED) / pitch_diameter))
 
 
 def _duration(bearing: Bearing, speed: float) -> int:

@@ -38,7 +38,7 @@ def add_commands(commands: Any) -> None:
     new.add_argument("--design", metavar="DESIGN", help="of a cylindrical roller bearing, as NU")
     for option, key, _, what in (*_DIMENSIONS, *_FURTHER):
         new.add_argument(option, dest=key, metavar=key.split("_")[-1].upper(), help=what)
-    new.add_argument("--cage", metavar="TYPE", help="type of cage, as crown")
+    new.add_argument("--cage", metavar="TYPE", help="type of cage, as crown, or none")
     new.add_argument("-o", "--out", metavar="FILE", help="case file (.toml) to write")
     new.add_argument("--force", action="store_true", help="write over an existing file")
 
@@ -63,9 +63,11 @@ def _outline(args: argparse.Namespace) -> tuple[Outline, str]:
     """What is known of the bearing, and from where: a catalogue's entry, what the options say, or
     the one changed by the other."""
     from flexcage.case.catalogue import WAY, find
+    from flexcage.case.sections import NO_CAGE
     from flexcage.core.errors import InputError
     from flexcage.core.units import parse
     from flexcage.geometry.bearing import check_type
+    from flexcage.geometry.full_complement import CAGED, FULL
     from flexcage.geometry.inside import Outline
 
     name = " ".join(args.designation)
@@ -79,7 +81,10 @@ def _outline(args: argparse.Namespace) -> tuple[Outline, str]:
     lacking = [option for option, key, _, _ in _DIMENSIONS if key not in given]
     lacking = lacking if args.type else ["--type", *lacking]
     if not lacking:
-        own = Outline(type=args.type, design=args.design, designation=name, **given)
+        complement = FULL if args.cage == NO_CAGE else CAGED
+        own = Outline(
+            type=args.type, design=args.design, designation=name, complement=complement, **given
+        )
         return own, "given by the user"
     if not name:
         what = f"{', '.join(lacking)} missing; " if given or args.type else ""

@@ -31,29 +31,48 @@ def _stem(what: str) -> str:
     return f"compiled-{what}-{key}"
 
 
+def _package_stem(what: str) -> str:
+    """The same of marks that leave the user's files out."""
+    return f"package-{what}-{hashlib.sha256(compiler_key().encode()).hexdigest()[:16]}"
+
+
 def kernels_cached(what: str) -> bool:
     """True if nothing is left to be compiled for a run of the family ``what``, or nothing ever
     is."""
-    if numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
-        return True
+    return bool(numba.config.DISABLE_JIT) or _marked(_stem(what))  # type: ignore[attr-defined]
+
+
+def own_kernels_cached(what: str) -> bool:
+    """True if flexcage's own kernels of such a run are on disk, so that few are left to be
+    compiled: those of a user's functions, or of other laws."""
+    return _marked(_package_stem(what))
+
+
+def _marked(stem: str) -> bool:
     keys: dict[str, str] = {}
     return any(
         _holds(mark, keys)
         for place in kernel_folder.places
-        for mark in sorted(place.glob(f"{_stem(what)}-*.mark"))
+        for mark in sorted(place.glob(f"{stem}-*.mark"))
     )
 
 
 def mark_compiled(what: str) -> None:
     """Say that all kernels are on disk, if they are."""
+    if kernel_folder.place is None or kernels_cached(what):
+        return
+    _write(_stem(what), kernel_cache.used)
+    _write(_package_stem(what), {name for name in kernel_cache.used if name.startswith(_PACKAGE)})
+
+
+def _write(stem: str, names: set[str]) -> None:
+    """A mark that lists functions and NamedTuples; none where there are none."""
     place = kernel_folder.place
-    if place is None or kernels_cached(what):
-        return
-    keys = ((_key_of(name), name) for name in sorted(kernel_cache.used))
+    keys = ((_key_of(name), name) for name in sorted(names))
     content = "\n".join(f"{key} {name}" for key, name in keys if key).encode()
-    if not content:
+    if place is None or not content:
         return
-    name = f"{_stem(what)}-{hashlib.sha256(content).hexdigest()[:16]}.mark"
+    name = f"{stem}-{hashlib.sha256(content).hexdigest()[:16]}.mark"
     try:
         write_whole(place / name, content)
     except OSError as error:

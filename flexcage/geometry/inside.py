@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe, mm
+from flexcage.geometry.full_complement import CAGED
 
 if TYPE_CHECKING:
     from flexcage.geometry.bearing import Bearing
@@ -45,8 +46,9 @@ class Outline:
 
     ``contact_angle`` [rad] of angular contact bearings; of roller bearings the ``design``, race
     diameters F and E and those of the ribs of both rings [m]; None where they have none, or where
-    the designation names no group of ``clearance``. ``left_out``: what of the designation flexcage
-    has not, a sentence each.
+    the designation names no group of ``clearance``. ``complement``: of what the ratings are, and
+    whether the bearing has a cage (``full_complement``). ``left_out``: what of the designation
+    flexcage has not, a sentence each.
     """
 
     type: str
@@ -63,6 +65,7 @@ class Outline:
     inner_rib_diameter: float | None = None
     outer_rib_diameter: float | None = None
     clearance: ClearanceGroup | None = None
+    complement: str = CAGED
     left_out: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
@@ -142,10 +145,13 @@ class Candidate:
 @dataclass(frozen=True, kw_only=True)
 class Inside:
     """How a family infers insides: ``candidates`` for an outline, in any order, and the type of
-    cage that its types of bearing commonly have."""
+    cage that its types of bearing commonly have; ``count``: key of the number of elements;
+    ``full``: candidates for ratings of a full complement, None where these tell no inside."""
 
     candidates: Callable[[Outline], Sequence[Candidate]]
     cages: Mapping[str, str]
+    count: str
+    full: Callable[[Outline], Sequence[Candidate]] | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

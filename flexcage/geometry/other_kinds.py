@@ -11,10 +11,6 @@ _HAS = (
     "flexcage has none: it has deep groove and angular contact ball bearings, and cylindrical "
     "roller bearings, single-row"
 )
-_FULL = (
-    "is a full complement cylindrical roller bearing; flexcage has no catalogue of these: describe "
-    'it by its dimensions in [bearing], with model = "none" in [cage]'
-)
 # ISO 15 and makers' catalogues (SKF, Schaeffler, NSK): first digits and letters of designations
 # without spaces, dashes and strokes, and what such a bearing is
 _DESIGNATIONS = {
@@ -28,7 +24,10 @@ _DESIGNATIONS = {
     r"4[23]\d\d([A-Z].*)?": "a double row deep groove ball bearing",
     r"QJF?\d.*": "a four-point contact ball bearing",
     r"(NK|NKI|NKS|NKIS|NA|RNA|HK|BK|NKIA|NKIB|NKX|NKXR|AXK|AXW|K)\d.*": "a needle roller bearing",
-    r"(NNCF|NNCL|NNC|NNF|SL0\d)\d.*": "a double row full complement cylindrical roller bearing",
+    r"(NNCF|NNCL|NNC|NNF|SL0\d|SL1850)\d.*": "a double row full complement cylindrical roller "
+    "bearing",
+    r"RSL1[89]\d.*": "a full complement cylindrical roller bearing without an outer ring",
+    r"N[CJ]F\d+ECJ[AB].*": "a high-capacity cylindrical roller bearing, with a cage",
     r"NNU?\d.*": "a double row cylindrical roller bearing",
     r"(UC|YAR|YET|YEL|GYE|SA|SB)\d.*": "an insert bearing",
     r"C[2345]\d{3}.*": "a toroidal roller bearing",
@@ -44,7 +43,6 @@ _NAMES = {
     r"needle.*": "needle roller bearings",
     r"(cross|toroid|carb|insert|slewing|linear|plain|journal|magnetic|slide).*": "such bearings",
 }
-_UNCAGED = re.compile(r"(NCF|NJG|SL1[89]|RSL1[89])\d.*")
 _CAGELESS = re.compile(r"full.?complement.*|cageless", re.IGNORECASE)
 _PAIR = re.compile(r"(7\d{3}[A-Z0-9]*?)(DB|DF|DT(?!N)|QBC|QFC|QBT|QFT|TBT|TFT|TBTX)[A-Z0-9]*")
 _SETS = {"DB": "back to back", "DF": "face to face", "DT": "in tandem"}
@@ -77,8 +75,6 @@ def kind_of(designation: str) -> str:
             f"is a set of bearings{how} ({pair[2]}); flexcage has single ones: take {pair[1]}, "
             "with its share of the load and the preload in load.axial"
         )
-    if _UNCAGED.fullmatch(name):
-        return _FULL
     for pattern, kind in _DESIGNATIONS.items():
         if re.fullmatch(pattern, name):
             return f"is {kind}; {_HAS}"

@@ -21,6 +21,7 @@ import flexcage
 from flexcage.case.catalogue import designations, find
 from flexcage.case.new import new_case
 from flexcage.core.errors import InputError, RunFailed
+from flexcage.geometry.full_complement import CAGED
 from flexcage.results.audit import EXCEEDED, OF_CAGE, OF_DRIVE, energy_audit
 
 CAGES = {
@@ -54,7 +55,9 @@ def plausible_case(
 def _drawn(rng: np.random.Generator, flexible: float) -> tuple[dict[str, str], str]:
     """Changes and text of a case for a bearing of the catalogue."""
     rollers = rng.random() < 0.5
-    names = [n for n in designations() if (find(n).outline.type == "cylindrical_roller") == rollers]
+    outlines = {n: find(n).outline for n in designations()}
+    names = [n for n, outline in outlines.items() if outline.complement == CAGED
+             and (outline.type == "cylindrical_roller") == rollers]  # fmt: skip
     entry = find(names[rng.integers(len(names))])
     outline = entry.outline
     if rollers and outline.design == "NJ" and rng.random() < 0.3:

@@ -19,6 +19,7 @@ from flexcage.case.new import new_case
 from flexcage.core.errors import InputError
 from flexcage.geometry.bearing import BEARING_TYPES
 from flexcage.geometry.cage import cages_of
+from flexcage.geometry.full_complement import CAGED
 from flexcage.mesh import sector
 from flexcage.stages import cage_mesh
 
@@ -27,7 +28,8 @@ MOST = 200_000  # nodes of a cage's mesh that a small machine reduces
 
 
 def pairs() -> list[tuple[str, str]]:
-    found = [(d, BEARING_TYPES[find(d).outline.type].element) for d in designations()]
+    found = [(d, BEARING_TYPES[find(d).outline.type].element) for d in designations()
+             if find(d).outline.complement == CAGED]  # fmt: skip
     return [(d, cage) for d, element in found for cage in cages_of(element)]
 
 

@@ -162,7 +162,7 @@ def test_series_share_boundary_dimensions():
     bores = {"00": 10.0, "01": 12.0, "02": 15.0, "03": 17.0}
     for designation in catalogue.designations():
         outline = catalogue.find(designation).outline
-        code = re.sub(r"^((N|NU|NJ|NUP)(10|2|3)|[67]\d)|[A-Z]+$", "", designation)
+        code = re.sub(r"^(N(CF|JG)[23]\d|(N|NU|NJ|NUP)(10|2|3)|[67]\d)|[A-Z]+$", "", designation)
         assert 1e3 * outline.bore == pytest.approx(bores.get(code, 5.0 * int(code)))
         assert outline.bore < outline.outside_diameter and catalogue.find(designation).source
     a, b, c = (catalogue.find(name).outline.boundary for name in ("6210", "7210 B", "n-210"))
@@ -220,6 +220,22 @@ def test_a_written_case_runs(designation, tmp_path):
         ("6213", "'6213' is not in the catalogue; the nearest known ones are 62"),
         ("6199", WAY),
         ("abc", "it has the series 60, 62, 63, 70, 72, 73, N10, N2, N3, NU10, NU2, NU3, NJ10, NJ2"),
+        ("NCF 3010 CZ", "no ratings of 'NCF 3010 CZ' (it has NCF3010)"),
+        ("NCF 3019 CV", "the nearest known ones are NCF3012, NCF3011, NCF3010"),
+        ("NCF 3019 CV", "--type cylindrical_roller --design NF --cage none --bore"),
+        (
+            "NJG 2320 VH",
+            '--design NJ --cage none --bore "..." --outside "..." --width "..."',
+        ),
+        ("SL182915", "'SL182915' is not in the catalogue; the nearest known one is NCF2912"),
+        (
+            "NCF 1868 V",
+            "has those of the series NCF22 (SL1822), NCF29 (SL1829), NCF30 (SL1830)",
+        ),
+        (
+            "SL182210",
+            '--bore "50 mm" --outside "90 mm" --width "23 mm" --outer-race "81.4',
+        ),
         ("NUP10", "flexcage has the designs N, NU, NJ, NUP and NF"),
         ("NJ 1009", "no ratings of 'NJ 1009'; 'NU1009' has the same races and ratings"),
         ("NJ 1009", '--type cylindrical_roller --design NJ --bore "45 mm" --outside "75 mm"'),
@@ -310,7 +326,10 @@ def test_makers_suffixes_are_read_and_each_is_explained(designation, same, notes
         ("3205 A", "a double row angular contact ball bearing"),
         ("4205", "a double row deep groove ball bearing"),
         ("QJ 208 MA", "a four-point contact ball bearing"),
-        ("NCF 2210", "a full complement cylindrical roller bearing"),
+        ("NNCF 5010 CV", "a double row full complement cylindrical roller bearing"),
+        ("SL185010", "a double row full complement cylindrical roller bearing"),
+        ("RSL183010", "a full complement cylindrical roller bearing without an outer ring"),
+        ("NCF 2210 ECJB", "a high-capacity cylindrical roller bearing, with a cage"),
         ("NN 3010", "a double row cylindrical roller bearing"),
         ("7210 DB", "a set of bearings back to back (DB)"),
         ("7010 CD/P4A DT", "a set of bearings in tandem (DT)"),

@@ -139,4 +139,5 @@ def _angular_contact(outline: Outline, balls: _Balls, unlikely: float) -> Candid
 INSIDE = Inside(
     candidates=candidates,
     cages={_DEEP_GROOVE: "ribbon", name_of(AngularContactBallBearing): "machined"},
+    count="ball_count",
 )

@@ -32,6 +32,11 @@ BY_DESIGN = (
 )
 #: Names of designs of cylindrical roller bearings, and what asks for them.
 OTHER_DESIGNS = {r"(cylindrical_roller_)?(rnu|nup?|nj|nf|nnu?|n?ncf)([-_ ]?\d.*)?": BY_DESIGN}
+#: Names of makers' full complement bearings, as designs: what has their ribs.
+FULL_COMPLEMENT = {
+    r"(r?ncf|sl18)[-_ ]?v?": 'NCF is the design "NF" with model = "none" in [cage]',
+    r"(njg|sl19)[-_ ]?(vh?)?": 'NJG is the design "NJ" with model = "none" in [cage]',
+}
 BY_RIBS = (
     "bearing.design says which ring has ribs; bearing.rib_diameter and rib_gap are of the two that "
     "guide the rollers, counter_rib_diameter and counter_rib_gap of the other ring's"
@@ -100,6 +105,7 @@ class RollerBearing(Bearing):
         "N", choices=tuple(designs.DESIGNS),
         doc="ribs: N two on the inner ring, NU on the outer; NJ as NU and one on the inner, NUP as "
         "NU and two on the inner, NF as N and one on the outer",
+        elsewhere=FULL_COMPLEMENT,
     )  # fmt: skip
     rib_diameter: float = quantity(
         "mm", doc="diameter of the two ribs that guide the rollers, towards them", above=0.0

@@ -17,7 +17,7 @@ from flexcage.bearings.cylindrical_roller.ratings import static_rating
 from flexcage.core.binding import check_value
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
-from flexcage.geometry.inside import Candidate, Inside, Outline, rounded
+from flexcage.geometry.inside import Candidate, Outline, rounded
 
 _LONGEST = 1.6  # length over diameter of rollers
 _WIDEST = 0.74  # length over the bearing's width: ribs remain at both sides
@@ -36,31 +36,50 @@ def candidates(outline: Outline) -> list[Candidate]:
     inner = outline.given("inner_race_diameter", "the race diameter F (--inner-race)")
     outer = outline.given("outer_race_diameter", "the race diameter E (--outer-race)")
     diameter, pitch = 0.5 * (outer - inner), 0.5 * (outer + inner)
-    check_value(outline.design or "N", RollerBearing.__dataclass_fields__["design"].metadata,
-                "--design")  # fmt: skip
+    check_design(outline)
     if diameter <= 0.0:
-        raise InputError(
-            f"The race diameter E, {describe(outer, 'mm')}, must be greater than F, "
-            f"{describe(inner, 'mm')}.",
-            where="--outer-race",
-        )
-    longest = min(_LONGEST * min(diameter, _LARGEST), _WIDEST * outline.width)
-    steps = range(ceil(2e3 * diameter - 1e-6), int(2e3 * longest) + 1)
+        raise races_the_wrong_way(inner, outer)
     found = []
-    lengths = {round(diameter, 9), *(round(0.5e-3 * k, 9) for k in steps)}
-    for length in sorted(x for x in lengths if x <= longest):
+    for length in lengths(outline, diameter, _LONGEST):
         for count in range(6, 60):
             share = diameter / (pitch * sin(pi / count))
             if share > _CLOSEST:
                 break
-            if made := _candidate(outline, length, count, share):
-                found.append(made)
+            made = candidate(outline, length, count)
+            how = f"inferred from C0: a roller takes {share:.0%} of the distance of two"
+            crowded = (share - _USUAL) / (0.03 if share > _USUAL else 0.1)
+            found.append(replace(made, reasons={**made.reasons, "roller_count": how},
+                                 unlikely=made.unlikely + crowded**2))  # fmt: skip
     return found
 
 
-def _candidate(outline: Outline, length: float, count: int, share: float) -> Candidate | None:
-    """So many rollers of a length [m], with the chamfers that C0 leaves them; None if these are
-    out of the question."""
+def check_design(outline: Outline) -> None:
+    """Raise InputError for a design that there is not."""
+    check_value(outline.design or "N", RollerBearing.__dataclass_fields__["design"].metadata,
+                "--design")  # fmt: skip
+
+
+def races_the_wrong_way(inner: float, outer: float) -> InputError:
+    """The sentence on race diameters [m] between which no roller goes."""
+    return InputError(
+        f"The race diameter E, {describe(outer, 'mm')}, must be greater than F, "
+        f"{describe(inner, 'mm')}.",
+        where="--outer-race",
+    )
+
+
+def lengths(outline: Outline, diameter: float, longest: float) -> list[float]:
+    """Lengths [m] that rollers of a diameter [m] may have, in steps of half a millimetre, up to
+    ``longest`` times the diameter and as far as ribs remain."""
+    most = min(longest * min(diameter, _LARGEST), _WIDEST * outline.width)
+    steps = range(ceil(2e3 * diameter - 1e-6), int(2e3 * most) + 1)
+    found = {round(diameter, 9), *(round(0.5e-3 * k, 9) for k in steps)}
+    return sorted(length for length in found if length <= most)
+
+
+def candidate(outline: Outline, length: float, count: int) -> Candidate:
+    """So many rollers of a length [m] between the outline's races, with the chamfers that C0
+    leaves them."""
     inner, outer = outline.inner_race_diameter or 0.0, outline.outer_race_diameter or 0.0
     diameter = 0.5 * (outer - inner)
     bearing = RollerBearing(
@@ -81,11 +100,10 @@ def _candidate(outline: Outline, length: float, count: int, share: float) -> Can
     bearing = replace(bearing, effective_length=effective)
     chamfer = 0.5 * (length - effective)
     off = (chamfer - _CHAMFER - _CHAMFER_SLOPE * diameter) / 0.12e-3
-    crowded = (share - _USUAL) / (0.03 if share > _USUAL else 0.1)
     whole = round(length - diameter, 9) == 0.0 or round(1e3 * length, 6).is_integer()
     return Candidate(
-        outline=outline, bearing=bearing, reasons=_reasons(outline, bearing, share, chamfer),
-        unlikely=off**2 + crowded**2 + (0.0 if whole else 2.0),
+        outline=outline, bearing=bearing, reasons=_reasons(outline, bearing, chamfer),
+        unlikely=off**2 + (0.0 if whole else 2.0),
     )  # fmt: skip
 
 
@@ -112,15 +130,12 @@ def _known(outline: Outline, ring: str) -> float | None:
     return found
 
 
-def _reasons(
-    outline: Outline, bearing: RollerBearing, share: float, chamfer: float
-) -> dict[str, str]:
+def _reasons(outline: Outline, bearing: RollerBearing, chamfer: float) -> dict[str, str]:
     size = f"{1e3 * bearing.roller_diameter:g} x {1e3 * bearing.roller_length:g}"
     return {
         "roller_diameter": "from the race diameters: (E - F)/2",
         "roller_length": f"inferred from C0: a roller {size}",
         "effective_length": f"inferred from C0: the length less chamfers of {1e3 * chamfer:.2g} mm",
-        "roller_count": f"inferred from C0: a roller takes {share:.0%} of the distance of two",
         "radial_clearance": outline.clearance_in_operation(_CLEARANCE)[1],
         **_reasons_of_ribs(outline),
     }
@@ -137,6 +152,3 @@ def _reasons_of_ribs(outline: Outline) -> dict[str, str]:
         found[f"{prefix}rib_diameter"] = given if known else usual
         found[f"{prefix}rib_gap"] = "assumption: axial play of 0.03 mm for the roller"
     return found
-
-
-INSIDE = Inside(candidates=candidates, cages={"cylindrical_roller": "window"})
