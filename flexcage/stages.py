@@ -42,7 +42,7 @@ from flexcage.system.layout import Layout, bodies_of_bearing
 from flexcage.system.problem import Bearing
 from flexcage.system.rings.left_out import left_by_lands
 from flexcage.system.rings.low_modes import DAMPED
-from flexcage.system.rings.modes import no_modes
+from flexcage.system.rings.modes_data import no_modes
 from flexcage.system.rings.moving import MovingRings, moving_rings
 from flexcage.system.rings.races import rigid_rings
 from flexcage.system.rings.sections import lands_follow

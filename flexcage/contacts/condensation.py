@@ -32,7 +32,7 @@ SOLVED_AGAIN = 3e-12  # [m] the same with factors of an earlier step, which gain
 SLOW = 0.1  # a step this large of the one before asks for new factors
 
 
-@part(fastmath=VECTORISED, of_constants=True)
+@part(fastmath=VECTORISED)
 def _read(m, span, shapes, face):
     """m residual shapes (nst + 2, m) under the slices of a face into face.R."""
     for j in range(face.j_least, face.j_most + 1):
@@ -43,7 +43,7 @@ def _read(m, span, shapes, face):
             )  # fmt: skip
 
 
-@part(fastmath=VECTORISED, of_constants=True)
+@part(fastmath=VECTORISED)
 def _yielded(m, span, face, c, sl):
     for k in range(span[0], span[1]):
         sl.d[k] = face.d0[k]
@@ -158,7 +158,7 @@ def _give(turn, c, b):
             b[k] += turn[l, k] * x
 
 
-@part(of_constants=True)
+@part
 def _solve(m, most, data, laws, sl, pw):
     """The m coordinates pw.c of the live faces; ``most`` (m,): what one of each moves the walls."""
     before, step = 0.0, 1.0
@@ -173,7 +173,7 @@ def _solve(m, most, data, laws, sl, pw):
             break
 
 
-@part(of_constants=True)
+@part
 def _balance(m, data, laws, anew, sl, pw):
     """Newton's step of m coordinates into pw.g, with new factors or those of an earlier step."""
     for l in range(m):
@@ -198,7 +198,7 @@ def _balance(m, data, laws, anew, sl, pw):
     back_substitute(m, pw.A, pw.g)
 
 
-@part(fastmath=VECTORISED, of_constants=True)
+@part(fastmath=VECTORISED)
 def _load(m, span, face, sl, g):
     """Add the residual coordinates' loads to g."""
     for l in range(m):
@@ -208,7 +208,7 @@ def _load(m, span, face, sl, g):
         g[l] += x
 
 
-@part(fastmath=VECTORISED, of_constants=True)
+@part(fastmath=VECTORISED)
 def _stiffen(m, span, face, sl, h, A):
     """Add R^T H R to the lower triangle of A (m, m)."""
     for l in range(m):
@@ -221,7 +221,7 @@ def _stiffen(m, span, face, sl, h, A):
             A[l, o] += x
 
 
-@part(forceinline=False, of_constants=True)
+@outlined
 def factor(n, A):
     """L D L^T of 1 + A (n, n) in place of the lower triangle of A: L, and 1/D in the diagonal."""
     for l in range(n):
@@ -236,7 +236,7 @@ def factor(n, A):
             A[l, m] *= A[m, m]
 
 
-@part(forceinline=False, of_constants=True)
+@outlined
 def back_substitute(n, A, x):
     """x <- (1 + A)^-1 x (n,) with the factors that ``factor`` left."""
     for m in range(n):

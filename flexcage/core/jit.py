@@ -28,7 +28,6 @@ from numba.extending import (
     unbox,
 )
 
-from flexcage.core import typing_order  # noqa: F401  for kernels, numbers and arrays first
 from flexcage.core.garbage import uncollected
 from flexcage.core.kernel_cache import KernelCache
 from flexcage.core.kernel_files import KernelFolder, kernel_cache_dir
@@ -121,31 +120,11 @@ def why_not_compiled(error: Exception) -> str:
 
 
 def part(*args: Any, **kwargs: Any) -> Any:
-    """A kernel that only other kernels call: inlined there, not callable from Python.
-
-    One compilation is for all values of whole numbers: what is constant where it is inlined, LLVM
-    sees there. ``of_constants``: one for each constant instead, as numba has it, for parts that
-    stay functions and gain by that, and those that pass constants on to them.
-    """
+    """A kernel that only other kernels call: inlined there, not callable from Python."""
     if not (args and callable(args[0])):
         return lambda function: part(function, **kwargs)
-    of_constants = kwargs.pop("of_constants", False)
     args[0].__qualname__ = PART_NAME + args[0].__qualname__  # known below by it
-    made = numba.njit(**{**PART, **kwargs})(args[0])
-    if not (of_constants or numba.config.DISABLE_JIT):  # type: ignore[attr-defined]
-        made.get_call_template = _for_all_values(made.get_call_template)
-    return made
-
-
-def _for_all_values(template_of: Any) -> Any:
-    """A part's method that compiles it for a call, but not anew for each constant in it; numba
-    would also compile it for the first value of what changes in a loop, and leave that unused."""
-
-    def template_for(args: Any, kws: Any) -> Any:
-        plain = {name: types.unliteral(kind) for name, kind in kws.items()}
-        return template_of(tuple(types.unliteral(kind) for kind in args), plain)
-
-    return template_for
+    return numba.njit(**{**PART, **kwargs})(args[0])
 
 
 outlined = part(forceinline=False)  # a part that stays a function: large, or rarely called

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from flexcage.system.problem import Bearing
-from flexcage.system.rings.modes import RingModes, deflect
+from flexcage.system.rings.modes import deflect
+from flexcage.system.rings.modes_data import RingModes
 from flexcage.system.rings.moving import SIDES
 from flexcage.system.rings.races import POINTS, RacesData
 

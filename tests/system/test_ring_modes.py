@@ -18,7 +18,8 @@ from flexcage.stages import assembled_start, bearing_in_motion, cage_mesh
 from flexcage.static import solve_static
 from flexcage.stress.rings import ring_field
 from flexcage.system.rings.low_modes import CARRIED, left_over, low_modes
-from flexcage.system.rings.modes import deflect, modes_of
+from flexcage.system.rings.modes import deflect
+from flexcage.system.rings.modes_data import modes_of
 from flexcage.system.rings.moving import moving_rings
 from flexcage.system.rings.supports import press_supports
 from flexcage.system.spec import Load

@@ -37,7 +37,7 @@ from flexcage.system.newton import assemble, newton_step
 from flexcage.system.problem import Bearing
 from flexcage.system.ring import CLEARANCE
 from flexcage.system.rings.left_out import left_by_ribs
-from flexcage.system.rings.modes import standing
+from flexcage.system.rings.modes_data import standing
 from flexcage.system.rings.moving import MovingRings, held_rings
 from flexcage.system.rings.sections import lands_follow
 from flexcage.system.start import made_room

@@ -18,7 +18,7 @@ from flexcage.core.vectors import RIGID
 from flexcage.fem.revolved import PSI, R, Revolved, X
 from flexcage.modes.ring import RingReduction, natural_modes, spectrum, strip
 from flexcage.system.data import AXIAL, MASS, TRANSVERSE, RingBody
-from flexcage.system.rings.modes import RingModes, modes_of
+from flexcage.system.rings.modes_data import RingModes, modes_of
 from flexcage.system.rings.races import POINTS
 from flexcage.system.statics.rings import BentRing, SeatedRing
 

@@ -18,7 +18,7 @@ from flexcage.system.rings.low_modes import (
     ring_coordinates,
     ring_with_modes,
 )
-from flexcage.system.rings.modes import RingModes, no_modes
+from flexcage.system.rings.modes_data import RingModes, no_modes
 from flexcage.system.rings.races import C11, C22, POINTS, RacesData, rigid_rings
 from flexcage.system.statics.rings import BentRing, Rings
 from flexcage.system.statics.solution import StaticSolution
