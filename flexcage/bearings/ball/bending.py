@@ -77,9 +77,9 @@ def evaluate(t, y, yd, d, law, out, mode):
         qi, ui = q[own], u[own]
         set_frame(qi[2], fields(d.pose).F)
         ring, race = inner_of(y, d), fields(d.inner)
-        _on_race(INNER_RACE, i, qi, ui, ring, race, fields(d.inner_modes), s, d, law, mode)
+        _on_race(INNER_RACE, i, y, ring, race, fields(d.inner_modes), d, law, mode)
         ring, race = outer_of(y, d), fields(d.outer)
-        _on_race(OUTER_RACE, i, qi, ui, ring, race, fields(d.outer_modes), s, d, law, mode)
+        _on_race(OUTER_RACE, i, y, ring, race, fields(d.outer_modes), d, law, mode)
         push_modes_by_element(i, d)
         push_by_slopes(i, q, y, d)
         if at.cages > 0:
@@ -94,9 +94,11 @@ def evaluate(t, y, yd, d, law, out, mode):
 
 
 @outlined
-def _on_race(side, i, qi, ui, ring, race, modes, s, d, law, mode):
+def _on_race(side, i, y, ring, race, modes, d, law, mode):
     """Ball i on the race of a ring (``side``), in its frame F."""
     work, pair, races = fields(d.scratch), fields(d.pair), fields(d.rings)
+    at, own = fields(d.places), of_element(i)
+    qi, ui, s = y[: at.bodies_q][own], y[at.u : at.bodies_u][own], y[at.loads :]
     laws, sl = Laws(law[RACE_LAW], law[RACE_RUBS]), fields(d.slices).row[0]
     zero(pair.wrench)
     ball = _carried(i, on_race(i, qi, ui, ring, side, d), modes)
