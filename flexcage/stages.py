@@ -148,10 +148,10 @@ def _moving_rings(specs: RingSections, seat: np.ndarray | None) -> MovingRings |
         return None
     rings = replace(_rings_of(specs), heavier=heaviest_load(specs.load))
     solution = _statics(specs, rings, seat)
-    return moving_rings(rings, solution, whole=_shake_on_their_seats(specs, seat))
+    return moving_rings(rings, solution, whole=_move_on_their_seats(specs, seat))
 
 
-def _shake_on_their_seats(specs: RingSections, seat: np.ndarray | None) -> tuple[bool, bool]:
+def _move_on_their_seats(specs: RingSections, seat: np.ndarray | None) -> tuple[bool, bool]:
     """May inner and outer ring, which bend, move as a whole on their seats? So they do on those
     that stand, or are as heavy: a light one would follow the ring at once."""
     load, mount, bearing = specs.load, specs.mount, specs.bearing

@@ -203,9 +203,9 @@ def _bear(t, y, yd, d, rows):
             (fields(d.inner_ring), at.inner_b, at.inner_modes),
             (fields(d.outer_ring), at.outer_b, at.outer_modes),
         ):
-            for j in range(RIGID + modes if modes > 0 else 0):
-                pull[b + j] = c.G[k, b + j]
             if modes > 0:
+                for j in range(b, b + RIGID + modes):
+                    pull[j] = c.G[k, j]
                 by_inverse(ring, array_from(pull, b))
         if at.cages > 0:
             cage_accelerations(

@@ -113,7 +113,7 @@ class Layout:
     """Slices of y for Z rolling elements and a list of bodies.
 
     q: elements (x, r, psi, skew, tilt, spin), then each body's; u: elements (v_x, v_r, v_psi,
-    w_axis, w_2, w_3), then each body's. ``ring`` and ``floating`` say what these are. The border of
+    w_axis, w_2, w_3), then each body's: ``RING`` and ``FRAME`` say what these are. The border of
     Newton's matrix is (the bodies' velocities, lambda, mu, and the further constraints' lambda and
     mu, one of each for every name in ``held``). A body's modes, a ring's too, follow the
     coordinates of its frame. Where rings bend y ends with the forces s that they bear of every

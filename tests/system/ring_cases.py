@@ -27,3 +27,9 @@ def housing_file(folder, *, along, coupled):
     dofs = np.array([(0, k) for k in range(6)])
     body = ReducedBody(stiffness=stiffness, mass=np.eye(6), nodes=np.zeros((1, 3)), dofs=dofs)
     return str(write_body(body, folder / "housing.npz"))
+
+
+def soft(*sides, **more):
+    """Keys of rings on soft foundations."""
+    keys = {"ring": "flexible", "seat": "foundation", "foundation": 3e10}
+    return {f"{side}_ring.{key}": value for side in sides for key, value in keys.items()} | more

@@ -5,7 +5,7 @@ from itertools import product
 import numpy as np
 import pytest
 from bearing_runs import unbalanced
-from ring_cases import LOADS, at_rest, case_of, housing_file
+from ring_cases import LOADS, at_rest, case_of, housing_file, soft
 
 import flexcage
 from flexcage.bearings import sections_of, statics_of
@@ -133,14 +133,6 @@ def test_waves_on_a_turning_ring_travel_as_bryans(speed):
         apart, mean = speed * closed, np.hypot(w, speed * closed)
         wanted = np.unique(np.round([mean - apart, mean + apart], 3))
         assert found == pytest.approx(wanted, abs=0.02 * apart + 1e-3)
-
-
-SOFT = {"ring": "flexible", "seat": "foundation", "foundation": 3e10}
-
-
-def soft(*sides, **more):
-    """Keys of rings on soft seats."""
-    return {f"{side}_ring.{key}": value for side in sides for key, value in SOFT.items()} | more
 
 
 def rates_of(bearing, y):

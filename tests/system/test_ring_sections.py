@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from bearing_runs import NUP, unbalanced
-from ring_cases import at_rest, housing_file
+from ring_cases import at_rest, housing_file, soft
 
 import flexcage
 from flexcage.stages import assembled_start, bearing_in_motion, cage_mesh
@@ -30,10 +30,7 @@ def housing(tmp_path):
     return housing_file(tmp_path, along=5e7, coupled=1e6)
 
 
-INNER = {
-    "inner_ring.ring": "flexible", "inner_ring.seat": "foundation", "inner_ring.foundation": 3e10,
-    "load.shaft_mass": 1.0,
-}  # fmt: skip
+INNER = soft("inner", **{"load.shaft_mass": 1.0})
 LAND_INSIDE = {"cage.guidance": "inner", "contacts.land.kind": "dry"}
 
 

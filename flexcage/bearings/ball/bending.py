@@ -88,7 +88,7 @@ def evaluate(t, y, yd, d, law, out, mode):
     force_rows(s, yd[at.loads :], races, out[at.loads :])
     if mode >= REPORT:
         report_races(u, q, s, races, fields(d.report))
-        report_modes(q, u, y, d)
+        report_modes(y, d)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
     mode_rows(y, yd, d, out, mode)
 

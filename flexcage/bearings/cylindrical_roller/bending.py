@@ -86,7 +86,7 @@ def evaluate(t, y, yd, d, law, out, mode):
         return
     if mode >= REPORT:
         report_races(u, q, s, races, fields(d.report))
-        report_modes(q, u, y, d)
+        report_modes(y, d)
     force_rows(s, yd[at.loads :], races, out[at.loads :])
     law[POCKETS](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
     roller_rows(y, yd, d, out, mode)

@@ -1,8 +1,8 @@
 """What of a ring's bending its ribs and lands do not follow in a run, and when that matters.
 
-They follow the modes of their ring (``sections``), and else the seat. What
-races yield beside that is left out: a warning says so where it is more than a tenth of a clearance.
-A film takes its ring as round.
+They follow the modes of their ring (``sections``), and else the seat. What races yield beside that
+is left out: a warning says so where it is more than a tenth of a clearance. A film takes its ring
+as round.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from flexcage.contacts.land import FILM, NONE, LandData
-from flexcage.contacts.ring_waves import COSINE, RADIALLY
+from flexcage.contacts.ring_waves import RADIALLY
 from flexcage.core.units import mm
 from flexcage.system.data import OUTER_RACE
 from flexcage.system.rings.moving import SIDES, MovingRings
@@ -27,10 +27,9 @@ def left_out(moving: MovingRings) -> np.ndarray:
     found = np.zeros_like(moving.data.given)
     for bent in moving.start.rings:
         side = SIDES.index(bent.side)
-        modes, at_start = moving.modes[side], moving.at_start[side]
-        turn = np.multiply.outer(bent.azimuth, modes.harmonic)
-        waves = np.where(modes.quarter == COSINE, np.cos(turn), np.sin(turn))
-        found[side] = bent.deflection @ bent.seated.to_v - (waves * at_start) @ modes.shape
+        found[side] = bent.deflection @ bent.seated.to_v
+        if (made := moving.coordinates[side]) is not None:
+            found[side] -= (made.waves(bent.azimuth) * made.at_start) @ made.shape
     return found
 
 
@@ -63,9 +62,10 @@ def left_by_ribs(moving: MovingRings, side: int, height: float, play: float) -> 
 
 def _out_of_round(moving: MovingRings, side: int) -> float:
     """By how much at the most a ring's radius differs from a circle's at the start [m]."""
-    modes = moving.modes[side]
-    crest = np.abs(modes.section[:, RADIALLY] * moving.at_start[side])
-    return float(crest[modes.harmonic >= _ROUND].sum())
+    if (made := moving.coordinates[side]) is None:
+        return 0.0
+    crest = np.abs(made.section[:, RADIALLY] * made.at_start)
+    return float(crest[made.harmonic >= _ROUND].sum())
 
 
 def _sentence(side: str, what: str, moved: float, clearance: float) -> str:

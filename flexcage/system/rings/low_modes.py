@@ -84,7 +84,7 @@ class LowModes:
 def low_modes(ring: RingReduction, below: float = CARRIED, *, least: int = 0) -> LowModes:
     """Modes below a frequency [rad/s] that yield to what presses on the ring, of harmonics from the
     ``least`` on."""
-    found, turning = [], []
+    found, turning, whole = [], [], _section_motions(ring.model)
     for n in ring.harmonics[least:]:
         frequency, shapes = _below(ring, int(n), below)
         at_ports = ring.ports.T @ shapes
@@ -93,7 +93,7 @@ def low_modes(ring: RingReduction, below: float = CARRIED, *, least: int = 0) ->
         kept, w = shapes[:, counts], frequency[counts]
         if ring.held.free and n == 1:
             kept, w = np.hstack([_translation(ring.model), kept]), np.append(0.0, w)
-        found += _columns(ring, int(n), w, kept)
+        found += _columns(ring, int(n), w, kept, whole)
         turning.append(kept.T @ (ring.model.mass(n) @ _round_the_ring(int(n), kept)))
         if n > 1 and not len(frequency):
             break
@@ -110,8 +110,11 @@ def _translation(model: Revolved) -> np.ndarray:
     return across / np.sqrt(across.T @ (model.mass(1) @ across))
 
 
-def _columns(ring: RingReduction, n: int, w: np.ndarray, shapes: np.ndarray) -> list[tuple]:
-    """What ``LowModes`` has of each of the shapes (3N, k) of harmonic n."""
+def _columns(
+    ring: RingReduction, n: int, w: np.ndarray, shapes: np.ndarray, whole: np.ndarray
+) -> list[tuple]:
+    """What ``LowModes`` has of each of the shapes (3N, k) of harmonic n; ``whole`` (3, 3N) gives
+    the motions of the section as a whole."""
     rigid = ring.model.rigid_motions(n)
     weighted = ring.model.mass(n) @ shapes
     moved, tilting = np.zeros((shapes.shape[1], 2)), np.zeros(shapes.shape[1])
@@ -120,7 +123,7 @@ def _columns(ring: RingReduction, n: int, w: np.ndarray, shapes: np.ndarray) -> 
     elif n == 1:
         moved = (rigid.T @ weighted).T
         tilting = _round_the_ring(1, rigid[:, 1:])[:, 0] @ weighted
-    at_ports, own = ring.ports.T @ shapes, _section_motions(ring.model) @ shapes
+    at_ports, own = ring.ports.T @ shapes, whole @ shapes
     return [(n, *each) for each in zip(w, at_ports.T, own.T, moved, tilting)]
 
 
@@ -235,12 +238,12 @@ def modes_of_ring(
     seated: SeatedRing, modes: LowModes, made: Coordinates, relaxation: float
 ) -> RingModes:
     """Data of a ring for kernels, with its supports if it has any."""
+    own = (
+        len(seated.azimuth), made.harmonic, made.quarter, made.shape, made.section, made.stiffness,
+        late_of(made, relaxation), made.turning, made.coupling, made.tilting,
+    )  # fmt: skip
     if not len(seated.support):
-        return modes_of(
-            len(seated.azimuth), made.harmonic, made.quarter, made.shape, made.section,
-            made.stiffness, late_of(made, relaxation), made.turning, made.coupling,
-            made.tilting,
-        )  # fmt: skip
+        return modes_of(*own)
     ring, azimuth = seated.reduction, 2.0 * np.pi * np.arange(POINTS) / POINTS
     n, rest = ring.harmonics, left_over(ring, modes)
     # race and support: the whole, less what modes have of it with the race's extrapolated weight
@@ -255,10 +258,7 @@ def modes_of_ring(
         for w in width
     ]  # fmt: skip
     return modes_of(
-        len(seated.azimuth), made.harmonic, made.quarter, made.shape, made.section, made.stiffness,
-        late_of(made, relaxation), made.turning, made.coupling, made.tilting,
-        azimuth=seated.support,
-        chi=made.chi, table=np.stack(table), kind=kind,
+        *own, azimuth=seated.support, chi=made.chi, table=np.stack(table), kind=kind,
         between=ring.between_supports(seated.support, seated.width, rest[:, _SEAT, _SEAT]),
         holds=not seated.presses_only,
     )  # fmt: skip

@@ -47,7 +47,6 @@ from flexcage.core.jit import array_from, fields, kernel, outlined, part, zero
 from flexcage.core.vectors import RIGID, TURN
 from flexcage.system.data import GRAVITY, INNER_RACE, KINETIC, MODAL_DAMPING, OUTER_RACE, STRAIN
 from flexcage.system.layout import PER_ELEMENT, RING
-from flexcage.system.ring import inner_of, outer_of
 from flexcage.system.rings.modes_data import B1, B2, SLOPE1, SLOPE2, RingModes
 from flexcage.system.rings.races import (
     POINTS,
@@ -69,6 +68,15 @@ class InModes(NamedTuple):
     u: np.ndarray  # (6,)
     a: np.ndarray  # (M,)
     v: np.ndarray  # (M,) rates
+
+
+class MotionRows(NamedTuple):
+    """Where a ring's rows begin, and how many of modes follow those of its frame."""
+
+    q: int
+    u: int
+    b: int
+    modes: int
 
 
 @part
@@ -222,8 +230,8 @@ def _pushed(i, modes):
 
 @part
 def mode_rows(y, yd, d, out, mode):
-    """Rows of both rings' modes, and their slopes if asked for; all contact forces are known."""
-    at, tan = fields(d.places), fields(d.tangent)
+    """Rows of both rings' modes; all contact forces are known. A tangent is of modes that stand."""
+    at, mass = fields(d.places), fields(d.tangent).Mbb
     inner = MotionRows(at.inner_q, at.inner_u, at.inner_b, at.inner_modes)
     outer = MotionRows(at.outer_q, at.outer_u, at.outer_b, at.outer_modes)
     gravity = fields(d.bodies).gravity
@@ -232,36 +240,9 @@ def mode_rows(y, yd, d, out, mode):
     _on_frame(y, yd, inner, fields(d.inner_ring), fields(d.inner_modes), False, out)
     _on_frame(y, yd, outer, fields(d.outer_ring), fields(d.outer_modes), True, out)
     if mode == TANGENT:
-        _slopes(y, inner, fields(d.inner_ring), fields(d.inner_modes), False, tan)
-        _slopes(y, outer, fields(d.outer_ring), fields(d.outer_modes), True, tan)
-
-
-class MotionRows(NamedTuple):
-    """Where a ring's rows begin, and how many of modes follow those of its frame."""
-
-    q: int
-    u: int
-    b: int
-    modes: int
-
-
-@outlined
-def _slopes(y, at, ring, modes, by_mount, tan):
-    """Slopes of the rows of a ring and its modes that follow from its own motion."""
-    b, speed = at.b + RIGID, y[at.u + U_SPIN]
-    for m in range(at.modes):
-        tan.Mbb[b + m, b + m] = 1.0
-    for m in range(modes.push.shape[0]):
-        tan.Kbb[b + m, b + m] += modes.stiffness[m]
-        tan.Cbb[b + m, b + m] += modes.stiffness[m] * modes.late[m]
-        for l in range(at.modes):
-            tan.Cbb[b + m, b + l] += 2.0 * speed * modes.turning[m, l]
-        for c in range(RIGID):
-            tan.Mbb[b + m, at.b + c] += modes.coupling[c, m]
-            tan.Cbb[b + m, at.b + c] -= 2.0 * speed * modes.tilting[c, m]
-            if not (by_mount and ring.free[c] == 0):
-                tan.Mbb[at.b + c, b + m] += modes.coupling[c, m]
-                tan.Cbb[at.b + c, b + m] += 2.0 * speed * modes.tilting[c, m]
+        for ring in (inner, outer):
+            for m in range(ring.b + RIGID, ring.b + RIGID + ring.modes):
+                mass[m, m] = 1.0
 
 
 @outlined
@@ -306,29 +287,17 @@ def _rows(y, yd, at, modes, gravity, out):
 
 
 @part
-def report_modes(q, u, y, d):
-    """Energy of both rings' modes and supports, and the power that they lose, beside what
-    ``races.report_races`` has."""
+def report_modes(y, d):
+    """Energy and weight of both rings' modes and supports, and the power that they lose, beside
+    what ``races.report_races`` has."""
     races, rep, s = fields(d.rings), fields(d.report), y[fields(d.places).loads :]
-    _report(INNER_RACE, q, u, s, _inner(y, d), races, fields(d.inner_modes), rep)
-    _report(OUTER_RACE, q, u, s, _outer(y, d), races, fields(d.outer_modes), rep)
     gravity = fields(d.bodies).gravity
-    _report_coupling(inner_of(y, d).u, _inner(y, d).v, fields(d.inner_modes), gravity, rep)
-    _report_coupling(outer_of(y, d).u, _outer(y, d).v, fields(d.outer_modes), gravity, rep)
+    _report(INNER_RACE, s, _inner(y, d), races, fields(d.inner_modes), gravity, rep)
+    _report(OUTER_RACE, s, _outer(y, d), races, fields(d.outer_modes), gravity, rep)
 
 
 @outlined
-def _report_coupling(u, v, modes, gravity, rep):
-    """Kinetic energy that modes with rates v have with the frame's motions u, and their weight."""
-    for c in range(RIGID):
-        for m in range(modes.push.shape[0]):
-            rep.energy[KINETIC] += u[c] * modes.coupling[c, m] * v[m]
-            if c < TURN:
-                rep.power[GRAVITY] += gravity[c] * modes.coupling[c, m] * v[m]
-
-
-@outlined
-def _report(side, q, u, s, own, races, modes, rep):
+def _report(side, s, own, races, modes, gravity, rep):
     a, v = own.a, own.v
     if modes.push.shape[0] == 0:
         return
@@ -337,6 +306,10 @@ def _report(side, q, u, s, own, races, modes, rep):
         rep.energy[KINETIC] += 0.5 * v[m] * v[m]
         rep.energy[STRAIN] += 0.5 * a[m] * force
         rep.power[MODAL_DAMPING] -= v[m] * modes.stiffness[m] * modes.late[m] * v[m]
+        for c in range(RIGID):  # with the frame's motions
+            rep.energy[KINETIC] += own.u[c] * modes.coupling[c, m] * v[m]
+            if c < TURN:
+                rep.power[GRAVITY] += gravity[c] * modes.coupling[c, m] * v[m]
     if races.bends[side] == 0:
         return
     Z = races.moment.shape[1]
@@ -347,11 +320,11 @@ def _report(side, q, u, s, own, races, modes, rep):
     for k in range(modes.press.shape[0]):
         rep.energy[STRAIN] += 0.5 * modes.press[k] * modes.swung[k]
     if modes.press.shape[0] > 0:
-        _lost_at_supports(side, q, u, s, v, races, modes, rep)
+        _lost_at_supports(side, s, v, races, modes, rep)
 
 
 @part
-def _lost_at_supports(side, q, u, s, v, races, modes, rep):
+def _lost_at_supports(side, s, v, races, modes, rep):
     """Power lost where supports keep the race from yielding: their share of (F - s) w'."""
     Z, rate, step = races.moment.shape[1], races.rate[side], modes.step
     for k in range(step.shape[0]):
@@ -359,7 +332,7 @@ def _lost_at_supports(side, q, u, s, v, races, modes, rep):
         for m in range(v.shape[0]):
             step[k] += modes.chi[k, m] * v[m]
         for i in range(Z):
-            c, f, orbit = modes.beside[k, i], force_at(side, i, Z), orbit_of(q, u, i)
+            c, f, orbit = modes.beside[k, i], force_at(side, i, Z), modes.orbit[i]
             for p in range(2):
                 late = races.force[side, i, p] - s[f + p]
                 step[k] += c[p] * rate * late + c[SLOPE1 + p] * s[f + p] * orbit
@@ -371,7 +344,7 @@ def _lost_at_supports(side, q, u, s, v, races, modes, rep):
     for k in range(step.shape[0]):
         step[k], modes.press[k] = modes.press[k], kept[k]
         for i in range(Z):
-            c, f, orbit = modes.beside[k, i], force_at(side, i, Z), orbit_of(q, u, i)
+            c, f, orbit = modes.beside[k, i], force_at(side, i, Z), modes.orbit[i]
             for p in range(2):
                 late = races.force[side, i, p] - s[f + p]
                 given = step[k] * c[p] + modes.press[k] * c[SLOPE1 + p] * orbit

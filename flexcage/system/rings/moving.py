@@ -27,7 +27,11 @@ SIDES = ("inner", "outer")
 _FAINT = 1e-4  # share of a deflection that elements far away make and may be left out
 _LOW = 3  # waves around a ring up to which its frequencies are looked at
 _OVAL = 2  # waves from which on a ring's motion is no rigid one, and couples with none
-_HELD = ", and such a ring is held in tilt."
+#: What lets a ring move as a whole on its seat.
+_WANTS = {
+    "inner": 'load.shaft_mass gives that, and with load.tilt = "held" the ring moves by itself',
+    "outer": "mount.mass gives that",
+}
 _STIFF = 2.0 * np.pi * 10e3  # [rad/s] assumption: rings with lower frequencies have modes
 
 
@@ -132,11 +136,10 @@ def _lowest(ring: BentRing, waves: range) -> float:
 
 def _moves_with_seat(side: str, lowest: float) -> str:
     """Of a ring that is soft on a light seat."""
-    key = "load.shaft_mass" if side == "inner" else "mount.mass"
     return (
         f"the {side} ring vibrates on its seat as a whole at {lowest / (2e3 * np.pi):.2g} kHz, but "
-        "in this run its mass moves with the seat, as nothing else there is known to be as heavy "
-        f"as the ring; {key} gives what moves with it{_HELD if side == 'inner' else '.'}"
+        "in this run its mass moves with the seat, as nothing there is known to be as heavy as the "
+        f"ring; {_WANTS[side]}."
     )
 
 

@@ -43,11 +43,8 @@ def carry_ribs(i, at, modes):
             moved += cos_n * even[PLACE, c] + sin_n * odd[PLACE, c]
             slope += n * (cos_n * odd[PLACE, c] - sin_n * even[PLACE, c])
             moves += cos_n * even[RATE, c] + sin_n * odd[RATE, c]
-        wall[MOVED, c], wall[SLOPE, c], wall[MOVES, c] = (
-            moved,
-            slope,
-            moves + slope * modes.orbit[i],
-        )
+        wall[MOVED, c], wall[SLOPE, c] = moved, slope
+        wall[MOVES, c] = moves + slope * modes.orbit[i]
     at[CENTRE, 0] -= wall[MOVED, AXIALLY]
     at[CENTRE, 1] -= wall[MOVED, RADIALLY]
     at[AXIS, 1] += wall[MOVED, IN_TILT]
