@@ -35,8 +35,8 @@ class Compiling:
     """Pieces of kernels left to be compiled, as bytes in a pipe, and a process that takes them
     too; whoever is free takes the next."""
 
-    pieces: int  # the pipe's end to read from
-    helper: subprocess.Popen | None
+    pieces: int | None = None  # the pipe's end to read from; None: nothing is left
+    helper: subprocess.Popen | None = None
 
 
 def kernels_of(specs: MotionSections) -> str:
@@ -46,14 +46,14 @@ def kernels_of(specs: MotionSections) -> str:
     return "-".join(filter(None, parts))
 
 
-def begin_compiling(case: Case) -> Compiling | None:
+def begin_compiling(case: Case) -> Compiling:
     """Begin to compile the kernels of the case's family in a process of its own, if they are not on
     disk yet.
 
     Meanwhile the cage is meshed and reduced. ``build_bearing`` helps, and waits for it.
     """
     if kernel_marks.kernels_cached(kernels_of(case)):
-        return None
+        return Compiling()
     log.info(_what_is_compiled(case))
     pieces = _numbers()
     command = f"{SAME_PACKAGE}; from flexcage.core.orphan import end_with; "
@@ -116,9 +116,10 @@ def build_bearing(
     not on disk yet.
     """
     bearing = bearing_in_motion(specs, mesh, cage)
-    if compiling is None and not kernel_marks.kernels_cached(kernels_of(specs)):
-        compiling = Compiling(_numbers(), None)
-    if compiling is not None:
+    if compiling is None:
+        cached = kernel_marks.kernels_cached(kernels_of(specs))
+        compiling = Compiling() if cached else Compiling(_numbers())
+    if compiling.pieces is not None:
         _compile_from(compiling.pieces, bearing)
         os.close(compiling.pieces)
         if compiling.helper is not None:
@@ -126,6 +127,6 @@ def build_bearing(
         for piece in bearing.pieces():  # what the helper took: read from disk, or compiled here
             piece()
     bearing.evaluate  # noqa: B018
-    if compiling is not None:
+    if compiling.pieces is not None:
         kernel_marks.mark_compiled(kernels_of(specs))
     return bearing

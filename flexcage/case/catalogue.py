@@ -204,8 +204,7 @@ def _without_ratings(text: str, name: str) -> InputError | None:
 
 def _wanted(series: dict[str, str]) -> list[str]:
     """Options of what bearings of a series need beside dimensions and ratings."""
-    rows_of = (row for n, row in _all_rows().items() if n.startswith(series["series"]))
-    alike = next(rows_of)
+    alike = next(row for n, row in _all_rows().items() if n.startswith(series["series"]))
     return [option for column, option in _OPTIONS.items() if alike[column]]
 
 

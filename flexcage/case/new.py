@@ -105,15 +105,15 @@ def _without_cage(outline: Outline, source: str, inside: Inside, cage: str | Non
             where="cage.type",
             value=cage,
         )
-    if outline.complement == FULL and inside.full is None:
-        kind = outline.type.replace("_", " ")
-        raise InputError(
-            f"The inside of a {kind} bearing is not inferred from ratings of a full complement; "
-            'give those with a cage without --cage none, then write model = "none" in [cage].',
-            where="cage.type",
-        )
     if outline.complement == FULL:
-        assert inside.full is not None
+        if inside.full is None:
+            kind = outline.type.replace("_", " ")
+            raise InputError(
+                f"The inside of a {kind} bearing is not inferred from ratings of a full "
+                "complement; give those with a cage without --cage none, then write model = "
+                '"none" in [cage].',
+                where="cage.type",
+            )
         candidates = ranked(inside.full(outline))
         chosen = candidates[0]
     else:

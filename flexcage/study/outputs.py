@@ -203,8 +203,8 @@ def never_negative(name: str) -> bool:
 def beyond_summary(names: tuple[str, ...]) -> tuple[str, ...]:
     """Those among the outputs that a summary may not hold: reductions, ``LATE_FIGURES``, and what a
     user's own file adds."""
-    added = own_figures()
-    return tuple(n for n in names if is_reduction(n) or n in {*LATE_FIGURES, *OWN, *added})
+    late = {*LATE_FIGURES, *OWN, *own_figures()}
+    return tuple(n for n in names if is_reduction(n) or n in late)
 
 
 def needs_stress(names: tuple[str, ...]) -> bool:

@@ -9,6 +9,7 @@ from flexcage.core.timing import Stages
 from flexcage.results.figures.figure import Found, Mark, Table
 from flexcage.solve.contract import Effort
 
+_LEAST_STEP = "least over the run, by the spectral radius"
 _NO_TIME = 1e-3  # s: a stage that is shorter had nothing to do
 
 
@@ -19,7 +20,7 @@ def _count(key: str, rare: bool, effort: Effort) -> Found | None:
 
 def _stable_step(effort: Effort) -> Found | None:
     step = effort.stable_step
-    return Found(step, "least over the run, by the spectral radius") if isfinite(step) else None
+    return Found(step, _LEAST_STEP) if isfinite(step) else None
 
 
 _COUNTS: tuple[tuple[str, str, str, *tuple[Mark, ...]], ...] = (
@@ -37,8 +38,7 @@ SOLVER = Table[Effort]("Solver")
 for _key, _title, _meaning, *_marks in _COUNTS:
     SOLVER.add(_key, _title, "", _meaning, *_marks, take=partial(_count, _key, "rare" in _marks))
 SOLVER.add(
-    "stable_step", "Stability bound of explicit steps", "us",
-    "least over the run, by the spectral radius", take=_stable_step,
+    "stable_step", "Stability bound of explicit steps", "us", _LEAST_STEP, take=_stable_step,
 )  # fmt: skip
 
 

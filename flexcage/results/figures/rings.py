@@ -24,11 +24,14 @@ def _torque(part: Part) -> Found | None:
     return Found(part.windows.ratio(part.drive, speed), TORQUE)
 
 
+def _towards(y: np.ndarray, z: np.ndarray) -> str:
+    """Whither the mean of a vector across the axis points, in words."""
+    return f"towards {np.degrees(np.arctan2(z.mean(), y.mean())):.1f} deg from y to z"
+
+
 def _away(part: Part) -> Found:
     _, y, z = part.of_axes("inner_position")
-    azimuth = np.degrees(np.arctan2(z.mean(), y.mean()))
-    note = f"of the mean place, towards {azimuth:.1f} deg from y to z"
-    return Found(float(np.hypot(y.mean(), z.mean())), note)
+    return Found(float(np.hypot(y.mean(), z.mean())), f"of the mean place, {_towards(y, z)}")
 
 
 def _axial(part: Part) -> Found:
@@ -74,9 +77,7 @@ for _key, _title, _unit in (("axial_force", "axial reaction", "N"),
 
 def _across(part: Part) -> Found:
     _, y, z = part.of_axes("outer_force")
-    azimuth = np.degrees(np.arctan2(z.mean(), y.mean()))
-    note = f"on average towards {azimuth:.1f} deg from y to z"
-    return Found(part.windows.mean(np.hypot(y, z)), note)
+    return Found(part.windows.mean(np.hypot(y, z)), f"on average {_towards(y, z)}")
 
 
 def _outer_away(part: Part) -> Found:
