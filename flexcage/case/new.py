@@ -139,7 +139,7 @@ def _check_cage(cage: str | None, element: str) -> None:
     if cage is not None and cage not in known:
         raise InputError(
             f"There is no cage of type '{cage}' for {element}s; "
-            f"{did_you_mean(cage, known, 'choose from')}.",
+            f"{did_you_mean(cage, (*known, NO_CAGE), 'choose from')}.",
             where="cage.type",
             value=cage,
         )
