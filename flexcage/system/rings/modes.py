@@ -62,9 +62,8 @@ from flexcage.system.rings.supports import press_supports, solve_pressed
 
 
 class InModes(NamedTuple):
-    """How a ring moves: its frame, and in that its modes."""
+    """How a ring moves: velocities of its frame, and in that its modes."""
 
-    q: np.ndarray  # (6,)
     u: np.ndarray  # (6,)
     a: np.ndarray  # (M,)
     v: np.ndarray  # (M,) rates
@@ -103,7 +102,7 @@ def _outer(y, d):
 @part
 def _at(y, q, u, count):
     a, v = q + RING, u + RIGID
-    return InModes(array_from(y, q), array_from(y, u), y[a : a + count], y[v : v + count])
+    return InModes(array_from(y, u), y[a : a + count], y[v : v + count])
 
 
 @outlined
@@ -357,4 +356,4 @@ def deflect(side, q, s, ring, a, races: RacesData, modes: RingModes):
     ``ring`` with these coordinates (6,), for a record; without H F."""
     deflect_races(q, ring, ring, s, races)
     if a.shape[0] > 0:
-        _move(side, s, InModes(ring, ring, a, a), races, modes)
+        _move(side, s, InModes(ring, a, a), races, modes)
