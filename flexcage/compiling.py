@@ -16,7 +16,7 @@ from flexcage.core import jit, kernel_marks
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.reduction import CageReduction
 from flexcage.stages import bearing_in_motion, bearing_to_compile
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 
 log = logging.getLogger(__name__)
 
@@ -96,7 +96,7 @@ def compile_pieces(text: str, *use: str) -> None:
     _compile_from(sys.stdin.fileno(), bearing_to_compile(load_case(text)))
 
 
-def _compile_from(pieces: int, bearing: Bearing) -> None:
+def _compile_from(pieces: int, bearing: BearingSystem) -> None:
     """Compile what can be read from ``pieces``, until nothing is left."""
     all_pieces = bearing.pieces()
     while number := os.read(pieces, 1):
@@ -109,7 +109,7 @@ def build_bearing(
     mesh: CageMesh | None,
     cage: CageReduction | None,
     compiling: Compiling | None = None,
-) -> Bearing:
+) -> BearingSystem:
     """Bodies, contacts and compiled equations of motion.
 
     ``compiling`` is what ``begin_compiling`` began; without it, this process compiles alone what is

@@ -39,7 +39,7 @@ from flexcage.system.begun import Start
 from flexcage.system.bodies import heaviest_load, in_housing
 from flexcage.system.constraints import names_of
 from flexcage.system.layout import Layout, bodies_of_bearing
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 from flexcage.system.rings.left_out import left_by_lands
 from flexcage.system.rings.low_modes import DAMPED
 from flexcage.system.rings.modes_data import no_modes
@@ -111,7 +111,7 @@ def flexible_cage(specs: ModesSections) -> CageReduction:
 
 def bearing_in_motion(
     specs: MotionSections, mesh: CageMesh | None, cage: CageReduction | None
-) -> Bearing:
+) -> BearingSystem:
     """Bodies, contacts and equations of motion, which are compiled when first asked for."""
     seat = compliance_of(specs.mount, specs.bearing)
     rings = _moving_rings(specs, seat)
@@ -124,7 +124,7 @@ def bearing_in_motion(
     return _assembled(specs, (body, _rigid_interface(specs)), rings, seat)
 
 
-def bearing_to_compile(specs: MotionSections) -> Bearing:
+def bearing_to_compile(specs: MotionSections) -> BearingSystem:
     """The same with any body for its cage, and a seat that stands: kernels are alike for all."""
     if specs.cage is None:
         return _assembled(specs, None)
@@ -179,7 +179,7 @@ def _statics(
 def _assembled(
     specs: MotionSections, cage: tuple[FlexibleBody, Any] | None, rings: MovingRings | None = None,
     seat: np.ndarray | None = None,
-) -> Bearing:  # fmt: skip
+) -> BearingSystem:  # fmt: skip
     """``cage``: its body, and what moves in its pockets; ``rings``: those that bend, any if they
     are left out; ``seat``: the outer ring's compliance, if it yields."""
     motion, output = motion_of(specs.bearing), specs.output
@@ -208,7 +208,7 @@ def _assembled(
         bodies_of_bearing(body.modes if body else None, rings.counts if rings else (0, 0)),
         names_of(specs.constraints), bends,
     )  # fmt: skip
-    return Bearing(
+    return BearingSystem(
         motion, specs.bearing, model, specs.contacts, layout, constraints=specs.constraints,
         block=output.block, stride=output.vibration_ratio, interval=1.0 / output.rate, rings=rings,
         seat=seat,
@@ -216,7 +216,7 @@ def _assembled(
 
 
 def assembled_start(
-    specs: StartSections, bearing: Bearing, progress: Callable[..., Any] = Silent
+    specs: StartSections, bearing: BearingSystem, progress: Callable[..., Any] = Silent
 ) -> Start:
     """Where a run begins: the bearing assembled and in equilibrium at the drive's first speed, its
     cage pushed off if ``start`` says so, and all on the constraints.

@@ -11,7 +11,7 @@ from flexcage.case import Case
 from flexcage.compiling import build_bearing
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.stages import cage_mesh
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 from flexcage.verification.runs import c7010
 
 
@@ -20,12 +20,12 @@ def _mesh(pocket: float) -> CageMesh:
     return cage_mesh(c7010().replace("cage.pocket_diameter", pocket))
 
 
-def bearing_of(case: Case) -> Bearing:
+def bearing_of(case: Case) -> BearingSystem:
     """The case's bearing, ready to be integrated."""
     return build_bearing(case, _mesh(2.0 * case.its_cage.pocket_reach), None)
 
 
-def balls_on_outer(bearing: Bearing) -> tuple[np.ndarray, np.ndarray]:
+def balls_on_outer(bearing: BearingSystem) -> tuple[np.ndarray, np.ndarray]:
     """y and y' at rest: balls just touch the outer groove's bottom, in the middle of their pockets;
     the inner groove is opposite, clear of them by half of the radial clearance."""
     model, layout = bearing.data.model, bearing.layout

@@ -12,12 +12,12 @@ from flexcage.case import Case
 from flexcage.integrate.integration import Integration
 from flexcage.integrate.recorded import new_store
 from flexcage.system.begun import Start
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 
 
 def march(
     case: Case,
-    bearing: Bearing,
+    bearing: BearingSystem,
     y: np.ndarray,
     yd: np.ndarray,
     *,

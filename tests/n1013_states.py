@@ -12,7 +12,7 @@ from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.reduction import CageReduction
 from flexcage.modes.spec import ModesSpec
 from flexcage.stages import cage_mesh, cage_reduction
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 from flexcage.verification.runs import n1013
 
 
@@ -22,7 +22,7 @@ def cage_of(case: Case) -> tuple[CageMesh, CageReduction]:
     return _mesh(_plain(case)), _reduction(plain)
 
 
-def bearing_of(case: Case) -> Bearing:
+def bearing_of(case: Case) -> BearingSystem:
     """The case's bearing, ready to be integrated."""
     flexible = case.cage_model == "flexible"
     return build_bearing(case, _mesh(_plain(case)), cage_of(case)[1] if flexible else None)
@@ -48,7 +48,7 @@ def _reduction(plain: Case) -> CageReduction:
     return reduction
 
 
-def state_at_rest(bearing: Bearing) -> tuple[np.ndarray, np.ndarray]:
+def state_at_rest(bearing: BearingSystem) -> tuple[np.ndarray, np.ndarray]:
     """y and y' with every roller in the middle of its pocket and of the races, nothing moving."""
     model, layout = bearing.data.model, bearing.layout
     y = np.zeros(layout.size)
@@ -60,7 +60,7 @@ def state_at_rest(bearing: Bearing) -> tuple[np.ndarray, np.ndarray]:
 
 
 def throw_cage(
-    bearing: Bearing, y: np.ndarray, yd: np.ndarray, speed: float, direction: float
+    bearing: BearingSystem, y: np.ndarray, yd: np.ndarray, speed: float, direction: float
 ) -> None:
     """Give the cage a speed [m/s] across the axis, at an azimuth [rad]."""
     for part in (bearing.layout.u(y)["cage"], bearing.layout.q(yd)["cage"]):

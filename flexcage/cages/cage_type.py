@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from flexcage.geometry.inside import CageProposal
     from flexcage.mesh.build import MeshBuilder
     from flexcage.modes.reduction import Interfaces
-    from flexcage.stress.places import Places
+    from flexcage.stress.places import StressPlaces
 
 C = TypeVar("C", bound=Cage)
 
@@ -34,7 +34,7 @@ class CageType(Generic[C]):
     holds: tuple[str, ...]
     mesh: Callable[[], MeshBuilder[C]]
     interfaces: Callable[[], Interfaces[C]]
-    places: Callable[[], Places]  # at which stress is followed
+    places: Callable[[], StressPlaces]  # at which stress is followed
     proposal: Callable[[], CageProposal] | None  # a cage for ``flexcage new``; None: no rule
     defects: tuple[type[CageDefect], ...] = ()
     defect_spec: type[CageDefect] = CageDefect  # what its mesh needs of each

@@ -16,7 +16,7 @@ from flexcage.core.jit import part
 from flexcage.core.vectors import combine, cross, dot, minus, plus, times
 
 
-class Beside(NamedTuple):
+class BallsBeside(NamedTuple):
     """What all balls of a bearing share: how they touch each other."""
 
     apart: float  # difference of azimuths [rad] from which on no two of them can touch
@@ -36,7 +36,7 @@ class TwoBalls(NamedTuple):
     onset: float  # speed at which the contact closed
 
 
-class Touch(NamedTuple):
+class BallTouch(NamedTuple):
     """How two balls touch: the line from the first to the second, distances of the contact from
     both centres, how the first slides on the second, and the force on the first and its friction.
     """
@@ -56,14 +56,14 @@ def seen(c, s, a):
 
 @part
 def touch_beside(two, beside, laws, sl):
-    """The ``Touch`` of ``TwoBalls``; penetration and rate in sl.d[0], sl.v[0], and only if they
+    """The ``BallTouch`` of ``TwoBalls``; penetration and rate in sl.d[0], sl.v[0], and only if they
     touch (sl.d[0] > 0) forces."""
     reach = sqrt(dot(two.place, two.place))
     n, none = times(1.0 / reach, two.place), (0.0, 0.0, 0.0)
     sl.d[0], sl.v[0] = two.radii[0] + two.radii[1] - reach, dot(n, two.velocity)
     arms = two.radii[0] - 0.5 * sl.d[0], two.radii[1] - 0.5 * sl.d[0]
     if sl.d[0] <= 0.0:
-        return Touch(n, arms, none, none, none)
+        return BallTouch(n, arms, none, none, none)
     normal_forces(laws.normal, (0, 1), sl, beside.normal, two.onset)
     turn = combine(times(arms[0], two.spin), arms[1], two.other_spin)
     slip = plus(two.velocity, cross(turn, n))
@@ -71,4 +71,4 @@ def touch_beside(two, beside, laws, sl):
     sl.u[0] = sqrt(dot(slip, slip))
     friction_factors(laws.friction, (0, 1), sl, beside.friction)
     friction = times(-sl.N[0] * sl.g[0], slip)
-    return Touch(n, arms, slip, minus(friction, times(sl.N[0], n)), friction)
+    return BallTouch(n, arms, slip, minus(friction, times(sl.N[0], n)), friction)

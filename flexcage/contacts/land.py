@@ -149,7 +149,7 @@ class LandForces(NamedTuple):
     ring_moment: np.ndarray  # (3,) about the ring's centre
 
 
-class Touch(NamedTuple):
+class LandTouch(NamedTuple):
     """An extreme of the penetration round a land, as ``LandWork`` has it."""
 
     side: int  # 0: the land at -x, 1: at +x
@@ -224,7 +224,7 @@ def dry_contact(cage, ring, data, onset, laws, sl, lw, out, sums):
             nearest = lw.sign[i] > 0.0 and lw.depth[i] > most
             if lw.sign[i] == 0.0 or (lw.depth[i] <= 0.0 and not nearest):
                 continue
-            touch = Touch(side, lw.place[i], lw.depth[i], lw.sign[i], lw.share[i])
+            touch = LandTouch(side, lw.place[i], lw.depth[i], lw.sign[i], lw.share[i])
             speed = _touch(touch, cage, ring, data, onset, laws, sl, lw, out, sums)
             if nearest:
                 most, sums[APPROACH + side] = lw.depth[i], speed

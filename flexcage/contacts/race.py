@@ -95,7 +95,7 @@ def race_work(slices: int) -> RaceWork:
     )  # fmt: skip
 
 
-class Line(NamedTuple):
+class RollerAxis(NamedTuple):
     """A roller's axis across the ring's axis: at s it is at x0 + s x1, with velocity v0 + s v1."""
 
     x0: tuple[float, float, float]
@@ -127,7 +127,7 @@ def meet_race(m, pose, side, Rw, theta, onset, rw):
     spin = minus(xyz(pose.w), ring_spin)
     v0 = minus(minus(xyz(pose.V), row(partner, VELOCITY)), cross(ring_spin, centre))
     first = np.uint64(m * n)
-    line = Line(x0, x1, v0, cross(spin, a))
+    line = RollerAxis(x0, x1, v0, cross(spin, a))
     _meet(first, side, Rw, onset, ring_axis, line, spin, sl)
     if side.uneven:
         _ride(first, pose, side, sqrt(dot(x0, x0)), ring_spin[0], theta, sl)

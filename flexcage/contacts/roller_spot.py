@@ -48,8 +48,8 @@ def spot_turn(pose, side, n, b, distance):
 
 @part
 def sink_on_spot(first, pose, side, line, ring_axis, spin, sl):
-    """What the roller's spot takes from penetrations and their rates; ``line`` (``race.Line``),
-    ``spin`` of the roller less the ring's."""
+    """What the roller's spot takes from penetrations and their rates; ``line`` is a
+    ``race.RollerAxis``, ``spin`` that of the roller less the ring's."""
     for k in range(side.s.shape[0]):
         if side.spotted[k] > 0.0:
             at = first + np.uint64(k)

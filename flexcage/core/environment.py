@@ -61,7 +61,7 @@ print("drawn" if drawn else "empty", window.GetClassName())
 
 
 @dataclass(frozen=True)
-class Finding:
+class Checked:
     """One thing looked at: whether it is fine, what was found, and the remedy if it is not.
 
     ``needed`` is False for what makes things faster or gives pictures, True for what a run needs.
@@ -75,7 +75,7 @@ class Finding:
 
 
 @dataclass(frozen=True)
-class Outcome:
+class CheckOutcome:
     """How a probe in another process ended: ``code`` is negative for a signal."""
 
     code: int
@@ -83,7 +83,7 @@ class Outcome:
     err: str
 
 
-def run_python(source: str, *, env: dict[str, str] | None = None) -> Outcome:
+def run_python(source: str, *, env: dict[str, str] | None = None) -> CheckOutcome:
     """Run a few lines of Python in a process of their own."""
     try:
         done = subprocess.run(
@@ -95,8 +95,8 @@ def run_python(source: str, *, env: dict[str, str] | None = None) -> Outcome:
             check=False,
         )
     except subprocess.TimeoutExpired:
-        return Outcome(124, "", f"no answer within {_PROBE_SECONDS} s")
-    return Outcome(done.returncode, done.stdout, done.stderr)
+        return CheckOutcome(124, "", f"no answer within {_PROBE_SECONDS} s")
+    return CheckOutcome(done.returncode, done.stdout, done.stderr)
 
 
 @cache
@@ -115,9 +115,9 @@ def offscreen_backend() -> str | None:
     return None
 
 
-def probe() -> list[Finding]:
+def probe() -> list[Checked]:
     """Look at all that flexcage needs or can use on this machine."""
-    looks: tuple[Callable[[], Finding], ...] = (
+    looks: tuple[Callable[[], Checked], ...] = (
         _python,
         _gmsh,
         _rendering,
@@ -130,36 +130,36 @@ def probe() -> list[Finding]:
     return [look() for look in looks]
 
 
-def _python() -> Finding:
+def _python() -> Checked:
     version = platform.python_version()
     ok = sys.version_info >= (3, 11)
-    return Finding("python", ok, version, "" if ok else "install Python 3.11 or later")
+    return Checked("python", ok, version, "" if ok else "install Python 3.11 or later")
 
 
-def _gmsh() -> Finding:
+def _gmsh() -> Checked:
     done = run_python("import gmsh; print(gmsh.__version__)")
     if done.code == 0:
-        return Finding("gmsh", True, done.out.strip())
+        return Checked("gmsh", True, done.out.strip())
     reason = done.err.strip().splitlines()[-1] if done.err.strip() else f"exit {done.code}"
     remedy = "pip install gmsh" if "No module named" in reason else APT_GMSH
-    return Finding("gmsh", False, reason, remedy)
+    return Checked("gmsh", False, reason, remedy)
 
 
-def _rendering() -> Finding:
+def _rendering() -> Checked:
     if importlib.util.find_spec("vtkmodules") is None:
-        return Finding("rendering", False, "VTK is missing", "pip install pyvista", needed=False)
+        return Checked("rendering", False, "VTK is missing", "pip install pyvista", needed=False)
     window = offscreen_backend()
     if window is None:
-        return Finding("rendering", False, "no way to draw off screen", APT_RENDER, needed=False)
-    return Finding("rendering", True, f"VTK {_version('vtk')}, {window} window", needed=False)
+        return Checked("rendering", False, "no way to draw off screen", APT_RENDER, needed=False)
+    return Checked("rendering", True, f"VTK {_version('vtk')}, {window} window", needed=False)
 
 
-def _solver() -> Finding:
+def _solver() -> Checked:
     packages = {"pypardiso": "PARDISO", "cvxopt": "CHOLMOD", "sksparse": "CHOLMOD"}
     found = [f"{name} ({p})" for p, name in packages.items() if importlib.util.find_spec(p)]
     if found:
-        return Finding("linear solver", True, ", ".join(found) + ", SciPy", needed=False)
-    return Finding(
+        return Checked("linear solver", True, ", ".join(found) + ", SciPy", needed=False)
+    return Checked(
         "linear solver",
         False,
         "SciPy's SuperLU only: fine meshes from files take several times as long",
@@ -168,58 +168,58 @@ def _solver() -> Finding:
     )
 
 
-def _cache_folder() -> Finding:
+def _cache_folder() -> Checked:
     folder = cache_root()
     if reason := distrusted(folder):
         remedy = "set FLEXCAGE_CACHE_DIR to a folder of your own"
-        return Finding("cache folder", False, f"{folder}: {reason}", remedy, needed=False)
+        return Checked("cache folder", False, f"{folder}: {reason}", remedy, needed=False)
     try:
         check_writable(folder)
     except OSError as exc:
         reason = f"{folder} cannot be written: {(exc.strerror or str(exc)).lower()}"
         remedy = f"set FLEXCAGE_CACHE_DIR to a folder that can be written{_room_for(exc)}"
-        return Finding("cache folder", False, reason, remedy, needed=False)
+        return Checked("cache folder", False, reason, remedy, needed=False)
     free = shutil.disk_usage(folder).free
     if free < _CACHE_ROOM:
         detail = f"{folder} has {free / 1e6:.0f} MB left; kernels and modes want more"
         remedy = f"make room there for {_CACHE_ROOM / 1e6:.0f} MB, or set FLEXCAGE_CACHE_DIR"
-        return Finding("cache folder", False, detail, remedy, needed=False)
-    return Finding("cache folder", True, str(folder), needed=False)
+        return Checked("cache folder", False, detail, remedy, needed=False)
+    return Checked("cache folder", True, str(folder), needed=False)
 
 
 def _room_for(error: OSError) -> str:
     return ", or make room there" if is_full(error) else ""
 
 
-def _kernel_cache() -> Finding:
+def _kernel_cache() -> Checked:
     """Compiled kernels that cannot be read."""
     folder = kernel_cache_dir()
     if reason := distrusted(folder):
         detail = f"{folder}: {reason}; kernels are compiled anew in every run"
         remedy = "set FLEXCAGE_CACHE_DIR to a folder of your own"
-        return Finding("kernel cache", False, detail, remedy, needed=False)
+        return Checked("kernel cache", False, detail, remedy, needed=False)
     bad = damaged(folder)
     if not bad:
-        return Finding("kernel cache", True, str(folder), needed=False)
+        return Checked("kernel cache", True, str(folder), needed=False)
     more = f" and {len(bad) - 1} more" if len(bad) > 1 else ""
     detail = f"{bad[0]}{more} cannot be read; a run compiles such a kernel anew"
     remedy = "flexcage cache --clear, which removes all that the cache holds"
-    return Finding("kernel cache", False, detail, remedy, needed=False)
+    return Checked("kernel cache", False, detail, remedy, needed=False)
 
 
-def _cores() -> Finding:
+def _cores() -> Checked:
     affinity = getattr(os, "sched_getaffinity", None)
     count = len(affinity(0)) if affinity else os.cpu_count() or 1
-    return Finding("cores", True, f"{count}", needed=False)
+    return Checked("cores", True, f"{count}", needed=False)
 
 
-def _memory() -> Finding:
+def _memory() -> Checked:
     total = total_memory()
     if isinf(total):
-        return Finding("memory", True, "unknown", needed=False)
+        return Checked("memory", True, "unknown", needed=False)
     ok = total >= _MINIMUM_MEMORY
     remedy = "" if ok else "take mesh.fineness = 'coarse'; the medium mesh may want up to 4 GB"
-    return Finding("memory", ok, f"{total / 1e9:.1f} GB", remedy, needed=False)
+    return Checked("memory", ok, f"{total / 1e9:.1f} GB", remedy, needed=False)
 
 
 def _version(package: str) -> str:

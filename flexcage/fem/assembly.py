@@ -21,7 +21,7 @@ Matrices = tuple[sp.csr_matrix, sp.csr_matrix]  # stiffness (3N, 3N) and scalar 
 
 
 @dataclass(frozen=True)
-class Elements:
+class ElementKind:
     """How element matrices are made: shape functions, rules exact for them, and material."""
 
     element: Any  # of scikit-fem
@@ -47,7 +47,7 @@ class Elements:
 
 
 def assemble_whole(
-    form: Elements, points: np.ndarray, tets: np.ndarray, cells: np.ndarray, n_nodes: int
+    form: ElementKind, points: np.ndarray, tets: np.ndarray, cells: np.ndarray, n_nodes: int
 ) -> Matrices:
     """Matrices from all elements; ``cells`` (n_tets, 4 or 10) are their nodes."""
     pattern = BlockPattern(cells, n_nodes)
@@ -56,7 +56,7 @@ def assemble_whole(
 
 
 def assemble_ring(
-    form: Elements, points: np.ndarray, tets: np.ndarray, cells: np.ndarray, sectors: Sectors
+    form: ElementKind, points: np.ndarray, tets: np.ndarray, cells: np.ndarray, sectors: Sectors
 ) -> Matrices:
     """The same of a ring, from the elements of one sector of every kind."""
     n_nodes = len(sectors.image)

@@ -13,7 +13,7 @@ import scipy.sparse as sp
 
 from flexcage.core.errors import InputError
 from flexcage.fem import elements
-from flexcage.fem.assembly import Elements, Matrices, assemble_ring, assemble_whole
+from flexcage.fem.assembly import ElementKind, Matrices, assemble_ring, assemble_whole
 from flexcage.fem.sectors import Sectors, edge_keys, find_sectors
 from flexcage.fem.tall import inner_products, subtract_product
 from flexcage.geometry.materials import Material
@@ -36,7 +36,7 @@ class FEModel:
     cells: np.ndarray  # (n_tets, 4 or 10) nodes of every element, scikit-fem's order
     nodes: np.ndarray  # (N, 3)
     edges: np.ndarray  # (n_edges, 2) sorted vertex pairs; empty for order 1
-    form: Elements
+    form: ElementKind
     material: Material
     order: int
     groups: Mapping[str, np.ndarray] = field(default_factory=lambda: MappingProxyType({}))
@@ -257,7 +257,7 @@ def assemble(mesh, material: Material, *, order: int = 2) -> FEModel:
     cells = np.ascontiguousarray(basis.element_dofs.T)
     tets = np.ascontiguousarray(fe_mesh.t.T)
     nodes = np.ascontiguousarray(basis.doflocs.T)
-    form = Elements(element, (basis.X, basis.W), mass_rule, lame(material), material.density)
+    form = ElementKind(element, (basis.X, basis.W), mass_rule, lame(material), material.density)
     edges = np.empty((0, 2), np.int64)
     if order == 2:
         edges, cells, nodes = _by_vertices(np.sort(fe_mesh.edges.T, axis=1), cells, nodes)

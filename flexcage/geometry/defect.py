@@ -53,7 +53,7 @@ class Mark(NamedTuple):
     text: str
 
 
-class Line(NamedTuple):
+class CageLine(NamedTuple):
     """A line on the cage: points (n, 3) [m], and the one that must be seen for it to be drawn."""
 
     points: np.ndarray
@@ -116,7 +116,7 @@ class CageDefect:
         None where nothing went anywhere."""
         return None
 
-    def lines(self, points: np.ndarray, count: int) -> Sequence[Line]:
+    def lines(self, points: np.ndarray, count: int) -> Sequence[CageLine]:
         """Lines that mark it on a mesh with the vertices ``points`` (n, 3) [m]."""
         return ()
 

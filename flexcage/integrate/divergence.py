@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.integrate.recording import Recording
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 
 # assumption: an overlap of this share of an element's radius is no contact any more. Ten static
 # ratings, the largest load that a case may have, press an N1013's rollers in by less than a tenth.
@@ -16,7 +16,7 @@ AHEAD = 1e-9 * 2.0 ** np.arange(17)  # [s] after the last good point, where a fa
 
 
 def runaway(
-    bearing: Bearing, recording: Recording[Any], y: np.ndarray
+    bearing: BearingSystem, recording: Recording[Any], y: np.ndarray
 ) -> tuple[int, str, str] | None:
     """The first of the states ``y`` (n, size) in which a contact is too deep, which it is, and what
     to look at."""
@@ -36,7 +36,7 @@ def runaway(
     return first, f"a contact ran away: {what}", "look at loads and contact stiffness"
 
 
-def first_undefined(bearing: Bearing, t: float, y: np.ndarray, yd: np.ndarray) -> str:
+def first_undefined(bearing: BearingSystem, t: float, y: np.ndarray, yd: np.ndarray) -> str:
     """The contact whose force is the first that is no finite number if the motion goes on as at
     (t, y); the hardest one if none is."""
     for ahead in AHEAD:
@@ -45,7 +45,7 @@ def first_undefined(bearing: Bearing, t: float, y: np.ndarray, yd: np.ndarray) -
     return hardest(bearing, t, y, yd)
 
 
-def hardest(bearing: Bearing, t: float, y: np.ndarray, yd: np.ndarray) -> str:
+def hardest(bearing: BearingSystem, t: float, y: np.ndarray, yd: np.ndarray) -> str:
     """The contact of an element with the largest normal force, or one that is not a number."""
     force = _forces(bearing, t, y, yd)
     rank = np.where(np.isnan(force), np.inf, force)
@@ -54,13 +54,13 @@ def hardest(bearing: Bearing, t: float, y: np.ndarray, yd: np.ndarray) -> str:
     return f"{where} with {force[number, place]:.3g} N"
 
 
-def _forces(bearing: Bearing, t: float, y: np.ndarray, yd: np.ndarray) -> np.ndarray:
+def _forces(bearing: BearingSystem, t: float, y: np.ndarray, yd: np.ndarray) -> np.ndarray:
     """Normal forces (Z, places) [N] on every element."""
     bearing.residual(t, y, yd, mode=2)
     report = bearing.data.work.report
     return np.concatenate([report.race[:, :, 0], report.pocket_normal, report.rib], axis=1)
 
 
-def _place(bearing: Bearing, index: int) -> str:
+def _place(bearing: BearingSystem, index: int) -> str:
     name, faces = bearing.places[index], bearing.motion.faces
     return f"pocket's face {name}" if name in faces and len(faces) > 1 else name

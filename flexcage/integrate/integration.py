@@ -43,7 +43,7 @@ from flexcage.system.data import (
     MASS,
     POWERS,
 )
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 from flexcage.system.scales import work_weights
 
 log = logging.getLogger(__name__)
@@ -87,7 +87,7 @@ class Integration:
 
     def __init__(
         self,
-        bearing: Bearing,
+        bearing: BearingSystem,
         recording: Recording[Any],
         start: Start,
         store: MemoryRunStore,
@@ -387,7 +387,7 @@ class Integration:
             array[...] = saved[name]
 
 
-def cheaper(bearing: Bearing, step: float, solver: SolverOptions) -> str:
+def cheaper(bearing: BearingSystem, step: float, solver: SolverOptions) -> str:
     """The integrator that "auto" takes where explicit steps up to ``step`` [s] are stable."""
     if bearing.data.model.inner_ring.stands:  # a held centre has no implicit equation
         return "explicit"

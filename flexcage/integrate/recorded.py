@@ -20,12 +20,12 @@ from flexcage.results.registry import (
 )
 from flexcage.results.store import MemoryRunStore, RunStore
 from flexcage.system.data import POWERS
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 
 
 def new_store(
     path: Any,
-    bearing: Bearing,
+    bearing: BearingSystem,
     recording: Recording[Any],
     *,
     duration: float,
@@ -68,7 +68,7 @@ def new_store(
     )  # fmt: skip
 
 
-def _of_cage(bearing: Bearing) -> dict[str, Any]:
+def _of_cage(bearing: BearingSystem) -> dict[str, Any]:
     """Labels of a cage's pockets, faces, modes and stations of its lands."""
     layout = bearing.layout
     return {
@@ -79,7 +79,7 @@ def _of_cage(bearing: Bearing) -> dict[str, Any]:
     }
 
 
-def _supports(bearing: Bearing) -> dict[str, Any]:
+def _supports(bearing: BearingSystem) -> dict[str, Any]:
     """Azimuths of supports that hold an outer ring that bends."""
     azimuth = bearing.rings.modes[1].azimuth if bearing.rings else ()
     if not len(azimuth):
@@ -90,14 +90,14 @@ def _supports(bearing: Bearing) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _spotted(bearing: Bearing, recording: Recording[Any]) -> dict[str, Any]:
+def _spotted(bearing: BearingSystem, recording: Recording[Any]) -> dict[str, Any]:
     """Numbers of the elements that have a spot."""
     spotted = recording.spots(bearing.data.model)
     told = {"long_name": "element that has a spot"}
     return {"spotted": (("spotted",), spotted, told)} if len(spotted) else {}
 
 
-def recorded_names(bearing: Bearing, recording: Recording[Any]) -> list[str]:
+def recorded_names(bearing: BearingSystem, recording: Recording[Any]) -> list[str]:
     """Names of all that is recorded of this bearing."""
     layout = bearing.layout
     supports = bearing.rings is not None and len(bearing.rings.modes[1].azimuth)
@@ -118,13 +118,13 @@ def recorded_names(bearing: Bearing, recording: Recording[Any]) -> list[str]:
 
 
 def recorded(
-    bearing: Bearing, recording: Recording[Any], y: np.ndarray, yd: np.ndarray
+    bearing: BearingSystem, recording: Recording[Any], y: np.ndarray, yd: np.ndarray
 ) -> dict[str, np.ndarray]:
     """Main-grid variables of one block by name, from states (n, size) and the samples kept."""
     return {**_common(bearing, y, yd), **recording.variables(bearing, y)}
 
 
-def _common(bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> dict[str, np.ndarray]:
+def _common(bearing: BearingSystem, y: np.ndarray, yd: np.ndarray) -> dict[str, np.ndarray]:
     """Rings, cage and energies of any bearing."""
     layout, s, n = bearing.layout, bearing.data.samples, len(y)
     q, u = layout.q(y), layout.u(y)
@@ -148,7 +148,7 @@ def _common(bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> dict[str, np.nda
     return arrays
 
 
-def _cage(bearing: Bearing, y: np.ndarray, yd: np.ndarray) -> dict[str, np.ndarray]:
+def _cage(bearing: BearingSystem, y: np.ndarray, yd: np.ndarray) -> dict[str, np.ndarray]:
     """The cage's motion, and the forces of its pockets and lands."""
     layout, s, n = bearing.layout, bearing.data.samples, len(y)
     q, u, a = layout.q(y), layout.u(y), layout.u(yd)

@@ -10,7 +10,7 @@ import numpy as np
 
 from flexcage.system.layout import Layout
 from flexcage.system.motion import M
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,7 +33,7 @@ class Recording(Generic[M]):
     """
 
     coords: Callable[[M], dict[str, Any]]
-    variables: Callable[[Bearing, np.ndarray], dict[str, np.ndarray]]
+    variables: Callable[[BearingSystem, np.ndarray], dict[str, np.ndarray]]
     overlaps: Callable[[M, Layout, np.ndarray], np.ndarray]
     remedy: Callable[[M], str] = lambda model: "a land (cage.guidance) would hold it"
     spots: Callable[[M], np.ndarray] = lambda model: np.zeros(0, np.int64)

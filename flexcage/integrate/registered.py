@@ -9,7 +9,7 @@ import numpy as np
 from flexcage.core.errors import FlexcageError, InputError, RunFailed, mistake_in
 from flexcage.results.registry import COMPUTED, VARIABLES
 from flexcage.results.store import MemoryRunStore
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 
 Computed = dict[str, Callable[..., np.ndarray]]
 
@@ -28,7 +28,7 @@ def computed_in(store: MemoryRunStore) -> Computed:
 
 
 def registered(
-    computed: Computed, arrays: dict[str, np.ndarray], bearing: Bearing, store: MemoryRunStore
+    computed: Computed, arrays: dict[str, np.ndarray], bearing: BearingSystem, store: MemoryRunStore
 ) -> dict[str, np.ndarray]:
     """Registered variables of a block by name, from the block's others."""
     samples = len(arrays["inner_angle"])

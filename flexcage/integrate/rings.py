@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 from flexcage.system.rings.modes import deflect
 from flexcage.system.rings.modes_data import RingModes
 from flexcage.system.rings.moving import SIDES
 from flexcage.system.rings.races import POINTS, RacesData
 
 
-def ring_records(bearing: Bearing, y: np.ndarray) -> dict[str, np.ndarray]:
+def ring_records(bearing: BearingSystem, y: np.ndarray) -> dict[str, np.ndarray]:
     """Loads on races and their deflections (n, Z, 2, 3), axially, radially and in tilt, in states
     (n, size), and forces (n, S) of supports on the outer ring."""
     layout, rings = bearing.layout, bearing.data.model.rings
@@ -35,7 +35,7 @@ def ring_records(bearing: Bearing, y: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def _by_modes(
-    bearing: Bearing, side: int, modes: RingModes, y: np.ndarray
+    bearing: BearingSystem, side: int, modes: RingModes, y: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Deflections (n, Z, 2) of the race of a ring with modes, and forces (n, S) of its supports."""
     layout, races = bearing.layout, bearing.data.model.rings

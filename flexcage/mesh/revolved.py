@@ -20,7 +20,7 @@ _AXIS = 1e-9  # of the section's greatest radius, within which a vertex lies on 
 
 
 @dataclass(frozen=True, eq=False)
-class Section:
+class HalfPlane:
     """The half-plane (radius, x): vertices (n, 2) [m], triangles (m, 3) and their bodies (m,).
 
     ``middles`` holds where the middle of a curved edge lies, by its sorted pair of vertices; that
@@ -35,7 +35,7 @@ class Section:
 
 
 @dataclass(frozen=True, eq=False)
-class Bodies:
+class RevolvedBodies:
     """Nodes (n, 3) [m], tetrahedra of ten nodes (m, 10) and their bodies (m,).
 
     ``faces[curve, body]`` are that body's triangles of six nodes (k, 6), corners first, on the
@@ -64,10 +64,10 @@ class Bodies:
 
 
 def revolved(
-    section: Section,
+    section: HalfPlane,
     sectors: int,
     place: Place | None = None,
-) -> Bodies:
+) -> RevolvedBodies:
     """The section turned round the x axis.
 
     ``place(radius, turn)`` gives (y, z) [m] at a radius of the section and at a turn, counted in
@@ -86,13 +86,13 @@ def revolved(
         for b in np.unique(section.bodies)
         if build.has(edges, int(b))
     }
-    return Bodies(nodes, ten, owner, faces)
+    return RevolvedBodies(nodes, ten, owner, faces)
 
 
 class _Build:
     """Numbers vertices as (body, vertex of the section, layer), and edges as they come."""
 
-    def __init__(self, section: Section, sectors: int, place: Place | None) -> None:
+    def __init__(self, section: HalfPlane, sectors: int, place: Place | None) -> None:
         self.section, self.sectors, self.place = section, sectors, place
         self.count = len(section.vertices)
         radius = section.vertices[:, 0]

@@ -16,7 +16,7 @@ import numpy as np
 
 from flexcage.geometry.riveted_joint import JointShape
 from flexcage.mesh.gmsh_session import gmsh_model
-from flexcage.mesh.revolved import Bodies, Section, revolved
+from flexcage.mesh.revolved import HalfPlane, RevolvedBodies, revolved
 
 RIVET, LOWER, UPPER = 0, 1, 2  # the bodies: the sheet at x < 0 and the one at x > 0
 ROOT_ELEMENTS = 6  # over the round at a head's root
@@ -42,7 +42,7 @@ class JointMesh:
     growth: float = 0.55
 
 
-def joint_bodies(shape: JointShape, mesh: JointMesh | None = None) -> Bodies:
+def joint_bodies(shape: JointShape, mesh: JointMesh | None = None) -> RevolvedBodies:
     """Rivet, lower and upper sheet as curved tetrahedra, lengths in m."""
     mesh = mesh or JointMesh()
     found = revolved(joint_section(shape, mesh), mesh.sectors, _strip(shape, mesh.sectors))
@@ -76,7 +76,7 @@ def _end_radius(shape: JointShape) -> float:
     return max(reach, 1.2 * shape.rim)
 
 
-def joint_section(shape: JointShape, mesh: JointMesh) -> Section:
+def joint_section(shape: JointShape, mesh: JointMesh) -> HalfPlane:
     """The section of all three bodies, lengths in m."""
     with gmsh_model("flexcage section of a riveted joint") as gmsh:
         surfaces, curves = _draw(gmsh, shape)
@@ -156,7 +156,7 @@ def _set_sizes(gmsh: Any, shape: JointShape, mesh: JointMesh, curves: dict[str, 
         gmsh.option.setNumber(f"Mesh.MeshSize{name}", 0)
 
 
-def _read(gmsh: Any, surfaces: list[int], curves: dict[str, list[int]]) -> Section:
+def _read(gmsh: Any, surfaces: list[int], curves: dict[str, list[int]]) -> HalfPlane:
     mesh = gmsh.model.mesh
     tags, coordinates, _ = mesh.getNodes()
     place = np.zeros((int(tags.max()) + 1, 2))
@@ -177,4 +177,4 @@ def _read(gmsh: Any, surfaces: list[int], curves: dict[str, list[int]]) -> Secti
         for name, own in curves.items()
     }  # fmt: skip
     bodies = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
-    return Section(place[used], number[six[:, :3]], bodies, middles, edges)  # type: ignore[arg-type]
+    return HalfPlane(place[used], number[six[:, :3]], bodies, middles, edges)  # type: ignore[arg-type]

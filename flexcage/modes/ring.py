@@ -44,7 +44,7 @@ _THIN = 0.02  # share of the wall below which no patch's extent goes
 
 
 @dataclass(frozen=True)
-class Held:
+class RingSeat:
     """How a ring's seat is held: rigidly, by a foundation [N/m^3], or by supports of its own."""
 
     rigidly: bool = True
@@ -69,7 +69,7 @@ class RingReduction:
 
     model: Revolved
     raceway: Raceway
-    held: Held
+    held: RingSeat
     compliance: np.ndarray
     shapes: np.ndarray
     rigid: np.ndarray
@@ -142,7 +142,7 @@ def strip(n: np.ndarray, width: np.ndarray) -> np.ndarray:
 def reduce_ring(
     section: RingSection,
     material: Material,
-    held: Held,
+    held: RingSeat,
     *,
     supports: int = 0,
     along: float = ALONG,
@@ -179,13 +179,15 @@ def reduce_ring(
     )
 
 
-def natural_frequencies(model: Revolved, held: Held, n: int, count: int) -> np.ndarray:
+def natural_frequencies(model: Revolved, held: RingSeat, n: int, count: int) -> np.ndarray:
     """The lowest ``count`` angular frequencies [rad/s] of a harmonic, of a free ring without its
     rigid motions."""
     return natural_modes(model, held, n, count)[0]
 
 
-def natural_modes(model: Revolved, held: Held, n: int, count: int) -> tuple[np.ndarray, np.ndarray]:
+def natural_modes(
+    model: Revolved, held: RingSeat, n: int, count: int
+) -> tuple[np.ndarray, np.ndarray]:
     """The same with their shapes (3N, count), of unit modal mass; always with the same signs, on
     which coordinates of a run rest."""
     from scipy.sparse.linalg import eigsh
@@ -202,7 +204,7 @@ def natural_modes(model: Revolved, held: Held, n: int, count: int) -> tuple[np.n
     return np.sqrt(values[order]), shapes
 
 
-def _kept(model: Revolved, held: Held, n: int) -> tuple[np.ndarray, sp.csc_matrix]:
+def _kept(model: Revolved, held: RingSeat, n: int) -> tuple[np.ndarray, sp.csc_matrix]:
     """Degrees of freedom that the seat leaves free, and their stiffness."""
     keep = np.ones(model.n_dof, bool)
     stiffness = model.stiffness(n)
@@ -214,7 +216,7 @@ def _kept(model: Revolved, held: Held, n: int) -> tuple[np.ndarray, sp.csc_matri
     return free, stiffness[free][:, free].tocsc()
 
 
-def _answers(model: Revolved, held: Held, loads: np.ndarray, n: int) -> np.ndarray:
+def _answers(model: Revolved, held: RingSeat, loads: np.ndarray, n: int) -> np.ndarray:
     """Displacements (3N, k) under loads of harmonic n; of a free ring with the inertia of its rigid
     motions, to which they are orthogonal in mass."""
     free, stiffness = _kept(model, held, n)

@@ -13,8 +13,8 @@ from flexcage.mesh.cage_mesh import POCKET_GROUPS, WALL_GROUPS, CageMesh, pocket
 from flexcage.render import marks, sheet
 from flexcage.render.defects import COLOURS, azimuth_of, legend, pocket_colours
 from flexcage.render.scene import (
+    BodySurface,
     Layer,
-    Surface,
     View,
     body_layer,
     outline_layer,
@@ -81,7 +81,7 @@ def mesh_picture(
 
 
 def _mesh_layers(mesh: CageMesh) -> list[Layer]:
-    whole = Surface(surface_of(mesh.tets).triangles).polydata(mesh.points)
+    whole = BodySurface(surface_of(mesh.tets).triangles).polydata(mesh.points)
     return [
         body_layer(whole, colour=BODY, edges="#70777f", width=0.175),
         outline_layer(whole, width=0.35),

@@ -31,7 +31,7 @@ def load_pyvista() -> Any:
 
 
 @dataclass(frozen=True)
-class Surface:
+class BodySurface:
     """Boundary of a tetrahedral body as linear triangles over the body's own nodes."""
 
     triangles: np.ndarray  # (n, 3) node numbers, outward orientation
@@ -63,7 +63,7 @@ def surface_vertices(tets: np.ndarray) -> np.ndarray:
 
 def surface_of(
     tets: np.ndarray, values: np.ndarray | None = None, *, within: float = 0.0
-) -> Surface:
+) -> BodySurface:
     """Boundary of tetrahedra with 4 nodes, or 10 (vertices, then edges 01 12 02 03 13 23).
 
     A quadratic face becomes four linear triangles through its mid nodes. With nodal ``values`` it
@@ -78,14 +78,14 @@ def surface_of(
     _, first, count = np.unique(code, return_index=True, return_counts=True)
     outer = first[count == 1]
     if tets.shape[1] == 4:
-        return Surface(corners[outer])
+        return BodySurface(corners[outer])
     corners = corners[outer]
     mids = np.concatenate([tets[:, _mid_nodes(f)] for f in _FACES])[outer]
     divided = np.ones(mids.shape, bool)
     if values is not None:
         ends = 0.5 * (values[corners] + values[np.roll(corners, -1, axis=1)])
         divided = np.abs(values[mids] - ends) > within
-    return Surface(_divided(corners, mids, divided))
+    return BodySurface(_divided(corners, mids, divided))
 
 
 def _divided(corners: np.ndarray, mids: np.ndarray, at: np.ndarray) -> np.ndarray:

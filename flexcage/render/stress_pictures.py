@@ -11,8 +11,8 @@ import numpy as np
 from flexcage.core.errors import InputError
 from flexcage.render import marks, sheet
 from flexcage.render.scene import (
+    BodySurface,
     Layer,
-    Surface,
     View,
     coloured_layer,
     outline_layer,
@@ -196,7 +196,7 @@ def _field_sheet(
 
 
 def field_layers(
-    field: Field, surface: Surface, scale: float, cmap: object, top: float
+    field: Field, surface: BodySurface, scale: float, cmap: object, top: float
 ) -> list[Layer]:
     """The coloured deformed body with its edges, and the undeformed outline if it differs."""
     moved = surface.polydata(field.points + scale * field.displacement, field.values)
@@ -211,7 +211,7 @@ def field_layers(
 
 def _close_up(
     stage: Stage,
-    surface: Surface,
+    surface: BodySurface,
     points: np.ndarray,
     node: int,
     radius: float,
@@ -237,7 +237,7 @@ def _close_up(
     return picture
 
 
-def _normal(surface: Surface, points: np.ndarray, node: int) -> np.ndarray:
+def _normal(surface: BodySurface, points: np.ndarray, node: int) -> np.ndarray:
     """Outward normal at a node, from its triangles weighted by area; radial if it has none."""
     around = surface.triangles[(surface.triangles == node).any(axis=1)]
     a, b, c = (points[around[:, i]] for i in range(3))

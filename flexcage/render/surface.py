@@ -13,7 +13,7 @@ _LEFT, _TOP, _WIDE, _HIGH, _GAP = 120, 170, 560, 460, 150
 _CURVE = 101  # places along a section
 
 
-class Samples(Protocol):
+class DrawnSamples(Protocol):
     """Values of a study's output over its axes (``study.samples``)."""
 
     @property
@@ -30,7 +30,7 @@ class Samples(Protocol):
     def unscaled(self, z: np.ndarray) -> np.ndarray: ...
 
 
-class Surface(Protocol):
+class DrawnSurface(Protocol):
     """What is drawn (``study.surface``)."""
 
     @property
@@ -46,7 +46,7 @@ class Surface(Protocol):
     def values(self, model: str) -> tuple[np.ndarray, np.ndarray]: ...
 
 
-def surface_picture(surface: Surface, path: str | Path) -> Path:
+def surface_picture(surface: DrawnSurface, path: str | Path) -> Path:
     """One row of panels a model: values, 95 % intervals, the optimum and its region."""
     s = surface.samples
     columns = 1 if len(s.titles) == 2 else len(s.titles)
@@ -73,7 +73,7 @@ def surface_picture(surface: Surface, path: str | Path) -> Path:
         return sheet.save(figure, path)
 
 
-def _section(ax: Any, surface: Surface, model: str, axis: int) -> None:
+def _section(ax: Any, surface: DrawnSurface, model: str, axis: int) -> None:
     """The surface along one axis through the optimum, the values, and the region's extent."""
     s, fit, optimum = surface.samples, surface.models[model], surface.optima[model]
     z = np.repeat(s.scaled(optimum.place[None]), _CURVE, axis=0)
@@ -90,7 +90,7 @@ def _section(ax: Any, surface: Surface, model: str, axis: int) -> None:
     ax.legend(loc="best")
 
 
-def _map(figure: Any, ax: Any, rect: sheet.Rect, surface: Surface, model: str) -> None:
+def _map(figure: Any, ax: Any, rect: sheet.Rect, surface: DrawnSurface, model: str) -> None:
     """The surface over two axes as a map, the region hatched."""
     s, optimum = surface.samples, surface.optima[model]
     n = round(len(surface.places) ** 0.5)

@@ -71,7 +71,7 @@ class Tiles:
 
 
 @dataclass(frozen=True)
-class Table:
+class PageTable:
     """A table that its reader can sort by any column; folded away under a title, ``fold``."""
 
     kind: ClassVar[str] = "table"
@@ -144,7 +144,7 @@ class Text:
 
 
 @dataclass(frozen=True)
-class Beside:
+class SideBySide:
     """Paragraphs with a picture at their side, below them where there is no room."""
 
     kind: ClassVar[str] = "beside"
@@ -152,11 +152,11 @@ class Beside:
     image: Image
 
 
-Block = Beside | Prose | Notices | Tiles | Table | Gallery | Chart | Charts | Text
+Block = SideBySide | Prose | Notices | Tiles | PageTable | Gallery | Chart | Charts | Text
 
 
 @dataclass(frozen=True)
-class Section:
+class PageSection:
     """A titled part of a page."""
 
     title: str
@@ -175,4 +175,4 @@ class Page:
 
     title: str
     subtitle: str
-    sections: Sequence[Section]
+    sections: Sequence[PageSection]

@@ -13,13 +13,13 @@ from flexcage.report.blocks import (
     Image,
     Notices,
     Page,
+    PageSection,
+    PageTable,
     Prose,
-    Section,
-    Table,
     Text,
 )
 from flexcage.report.tables import number, typeset
-from flexcage.results.compared import HEADS, YES, Comparison, Pair
+from flexcage.results.compared import HEADS, YES, ComparedPair, Comparison
 
 FORCES = "Pocket forces of both runs: over time, how often they occur, and by pocket"
 
@@ -41,32 +41,35 @@ def comparison_page(
     first, second = found.names
     differ = [[path, *map(_text, values)] for path, values in found.differences.items()]
     sections = [
-        Section("The figures that matter", [
+        PageSection("The figures that matter", [
             _table(found, found.leading, " ".join(found.legend)),
             *([Prose(found.differ)] if found.differ else []),
-            Table(("figure", "remark"), found.remarks(), fold="Remarks on these figures"),
+            PageTable(("figure", "remark"), found.remarks(), fold="Remarks on these figures"),
         ]),
-        Section("Warnings", [Notices(found.warnings, none="None.")]),
-        *(Section("Cage forces", [Gallery([Image(path, FORCES, wide=True)])]) for path in pictures),
-        Section("All figures", [
+        PageSection("Warnings", [Notices(found.warnings, none="None.")]),
+        *(
+            PageSection("Cage forces", [Gallery([Image(path, FORCES, wide=True)])])
+            for path in pictures
+        ),
+        PageSection("All figures", [
             _table(found, pairs, title) for title, pairs in found.sections.items() if pairs
         ]),
-        Section("What was computed", [
-            *([Table(("path in the case", first, second), differ, "Values that differ.")]
+        PageSection("What was computed", [
+            *([PageTable(("path in the case", first, second), differ, "Values that differ.")]
               if differ else []),
             *(_statement(name, texts) for name, texts in statements.items()),
         ]),
-        Section("Cases", [Text(name, text) for name, text in cases.items()]),
+        PageSection("Cases", [Text(name, text) for name, text in cases.items()]),
     ]  # fmt: skip
     return Page(f"{title}: {first} and {second} compared", f"{second} against {first}", sections)
 
 
-def _table(found: Comparison, pairs: Sequence[Pair], caption: str = "") -> Table:
+def _table(found: Comparison, pairs: Sequence[ComparedPair], caption: str = "") -> PageTable:
     head = (HEADS[0], *found.names, "unit", *HEADS[1:])
-    return Table(head, [_cells(pair) for pair in pairs], caption)
+    return PageTable(head, [_cells(pair) for pair in pairs], caption)
 
 
-def _cells(pair: Pair) -> list[Cell | str]:
+def _cells(pair: ComparedPair) -> list[Cell | str]:
     values = pair.numbers or (None, None)
     figures = [Cell(text.replace("-", "–") if text == "-" else text, value)
                for text, value in zip(pair.texts, values)]  # fmt: skip

@@ -8,13 +8,13 @@ from pathlib import Path
 from flexcage.core.errors import InputError
 from flexcage.core.reading import read_json
 from flexcage.core.writing import check_own
-from flexcage.report.blocks import Block, Gallery, Image, Section
+from flexcage.report.blocks import Block, Gallery, Image, PageSection
 from flexcage.report.tables import frame_table
 
 FOLDER, CAPTIONS = "figures", "captions.json"
 
 
-def extra_figures(folder: str | Path) -> Section | None:
+def extra_figures(folder: str | Path) -> PageSection | None:
     """Section "Figures" from the folder's own pictures and tables; None if there are none.
 
     ``figures/captions.json`` maps file names to captions; a file without one is named by itself.
@@ -36,7 +36,7 @@ def extra_figures(folder: str | Path) -> Section | None:
             except (OSError, ValueError) as exc:
                 raise InputError(f"'{path}' cannot be read as a table ({exc}).") from exc
             blocks.append(frame_table(frame, captions.get(path.name, _title(path))))
-    return Section("Figures", blocks) if blocks else None
+    return PageSection("Figures", blocks) if blocks else None
 
 
 def _title(path: Path) -> str:

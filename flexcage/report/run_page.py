@@ -11,15 +11,15 @@ import numpy as np
 
 from flexcage.render.album import Scene
 from flexcage.report.blocks import (
-    Beside,
     Block,
     Charts,
     Gallery,
     Image,
     Notices,
     Page,
+    PageSection,
     Prose,
-    Section,
+    SideBySide,
     Text,
     Tile,
     Tiles,
@@ -38,7 +38,7 @@ from flexcage.results import metrics
 from flexcage.results.figures.figure import LARGE, STATISTIC
 from flexcage.results.figures.own import own_figures
 from flexcage.results.figures.table import FIGURES, marked
-from flexcage.results.row import SHOWN, Row
+from flexcage.results.row import SHOWN, SummaryRow
 from flexcage.results.slip import BearingNumbers
 from flexcage.results.summary import Summary
 
@@ -92,17 +92,19 @@ class RunAccount:
 def run_page(account: RunAccount) -> Page:
     """The page: what was computed and its figures first, how to repeat it last."""
     sections = [
-        Section("What was computed", [_statement(account)]),
-        Section("Warnings", [Notices(account.warnings, none="None.")]),
+        PageSection("What was computed", [_statement(account)]),
+        PageSection("Warnings", [Notices(account.warnings, none="None.")]),
         _figures(account),
         *_stress(account),
-        Section("Histories", [Charts(history_charts(account.scene, account.numbers)), _THINNED]),
+        PageSection(
+            "Histories", [Charts(history_charts(account.scene, account.numbers)), _THINNED]
+        ),
         _pictures(account),
         *_extras(account),
         _energy(account),
         _solver(account),
         _grounds(account),
-        Section("How to reproduce", [
+        PageSection("How to reproduce", [
             Text("Commands", account.commands, open=True), Text("case.toml", account.case_text),
         ]),
     ]  # fmt: skip
@@ -120,7 +122,7 @@ _THINNED = Prose(
 def _statement(account: RunAccount) -> Block:
     """What was computed, beside the first picture that there is."""
     prose = Prose(account.statement)
-    return Beside(prose, first[0]) if (first := _leading(account)) else prose
+    return SideBySide(prose, first[0]) if (first := _leading(account)) else prose
 
 
 def _leading(account: RunAccount) -> list[Image]:
@@ -128,7 +130,7 @@ def _leading(account: RunAccount) -> list[Image]:
     return _named(account, *_LEADING)[:1]
 
 
-def _figures(account: RunAccount) -> Section:
+def _figures(account: RunAccount) -> PageSection:
     large = marked(LARGE)
     tiles = [_tile(row) for row in account.summary if row.key in large]
     kept = [s for s in account.summary.sections if s.title not in _APART]
@@ -136,10 +138,10 @@ def _figures(account: RunAccount) -> Section:
         "± is half of a 95 % interval. Figures without ± are counts, values of one instant, or "
         "means of too few passes; – is not known. A click on a heading sorts."
     )
-    return Section("Key figures", [Tiles(tiles), summary_table(kept, note, fold="All figures")])
+    return PageSection("Key figures", [Tiles(tiles), summary_table(kept, note, fold="All figures")])
 
 
-def _tile(row: Row) -> Tile:
+def _tile(row: SummaryRow) -> Tile:
     margin = row.margin_text
     if isinstance(row.value, str) or row.text == "-":
         return Tile(row.label, row.text.replace("-", "–"), row.note)
@@ -148,13 +150,13 @@ def _tile(row: Row) -> Tile:
     return Tile(row.label, f"{value} {typeset(row.shown)}".strip(), note)
 
 
-def _rounded(row: Row) -> str:
+def _rounded(row: SummaryRow) -> str:
     """A figure whose margin is not known: three digits, and all before the point."""
     value = float(row.value or 0.0) * SHOWN[row.shown][1]
     return f"{value:,.0f}" if abs(value) >= 100.0 else f"{value:#.3g}".removesuffix(".")
 
 
-def _without_margin(row: Row) -> str:
+def _without_margin(row: SummaryRow) -> str:
     """Why a figure has no ±; of a user's own, its note."""
     if row.key in own_figures():
         return row.brief_note
@@ -172,7 +174,7 @@ def cage_stress(scene: Scene, stress: StressPictures, name: str = "") -> CageStr
     )  # fmt: skip
 
 
-def _stress(account: RunAccount) -> list[Section]:
+def _stress(account: RunAccount) -> list[PageSection]:
     from flexcage.render.stress_pictures import nice_scale
 
     stress, mesh = account.scene.stress, account.scene.mesh
@@ -180,13 +182,15 @@ def _stress(account: RunAccount) -> list[Section]:
         return []
     if stress is None:
         none = Prose(["The cage of this run is rigid: it has no stress."])
-        return [Section("Stress in the cage", [none])]
+        return [PageSection("Stress in the cage", [none])]
     cage = cage_stress(account.scene, stress)
     scale = nice_scale(cage.points, cage.displacement)
     title = f"Equivalent stress at its peak, t = {stress.time * 1e3:.3f} ms"
     blocks: list[Block] = [cage_chart([cage], scale=scale, title=title)]
     pictures = _named(account, "stress_envelope")
-    return [Section("Stress in the cage", [*blocks, *([Gallery(pictures)] if pictures else [])])]
+    return [
+        PageSection("Stress in the cage", [*blocks, *([Gallery(pictures)] if pictures else [])])
+    ]
 
 
 def _named(account: RunAccount, *names: str) -> list[Image]:
@@ -199,45 +203,49 @@ def _caption(account: RunAccount, name: str) -> str:
     return CAPTIONS[name].format(elements=elements) if name in CAPTIONS else name
 
 
-def _pictures(account: RunAccount) -> Section:
+def _pictures(account: RunAccount) -> PageSection:
     known = [name for name in CAPTIONS if name not in (*_CHARTS, "stress_envelope")]
     own = sorted({path.stem for path in account.images} - set(CAPTIONS))
     leading = _leading(account)
     images = [image for image in _named(account, *known, *own) if image not in leading]
     if not images and not leading:
-        return Section("Pictures", [Notices([f"No pictures: {account.no_images or 'none found'}"])])
-    return Section("Pictures", [Gallery(images), Prose(["A click shows a picture in full size."])])
+        return PageSection(
+            "Pictures", [Notices([f"No pictures: {account.no_images or 'none found'}"])]
+        )
+    return PageSection(
+        "Pictures", [Gallery(images), Prose(["A click shows a picture in full size."])]
+    )
 
 
-def _extras(account: RunAccount) -> list[Section]:
+def _extras(account: RunAccount) -> list[PageSection]:
     found = extra_figures(account.folder) if account.folder else None
     return [found] if found else []
 
 
-def _energy(account: RunAccount) -> Section:
+def _energy(account: RunAccount) -> PageSection:
     rows = [row for section in _sections(account, _ENERGY) for row in section.shown]
     blocks: list[Block] = [rows_table(rows)]
     if {"energy", "work"} <= set(account.scene.dataset.data_vars):
         blocks.append(Charts([imbalance_chart(account.scene.dataset)]))
-    return Section(FIGURES["energy_audit"].title, blocks)
+    return PageSection(FIGURES["energy_audit"].title, blocks)
 
 
 def _sections(account: RunAccount, *titles: str) -> list:
     return [s for s in account.summary.sections if s.title in titles]
 
 
-def _solver(account: RunAccount) -> Section:
+def _solver(account: RunAccount) -> PageSection:
     blocks: list[Block] = [
         rows_table(section.shown, section.title) for section in _sections(account, _SOLVER, _TIMES)
     ]
     if len(account.steps.get("time", ())):
         blocks.append(Charts([step_chart(account.steps["time"], account.steps["step"])]))
     blocks.append(mapping_table(("path in the case", "value"), account.settings, fold="Settings"))
-    return Section("Solver and model", blocks)
+    return PageSection("Solver and model", blocks)
 
 
-def _grounds(account: RunAccount) -> Section:
-    return Section("Assumptions and sources", [
+def _grounds(account: RunAccount) -> PageSection:
+    return PageSection("Assumptions and sources", [
         assumption_table(account.assumptions, fold="Values that no source gives"),
         mapping_table(("source", "what it gave"), account.sources, "Sources"),
     ])  # fmt: skip

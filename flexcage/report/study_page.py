@@ -7,16 +7,16 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from flexcage.report.blocks import (
-    Beside,
     Block,
     Charts,
     Gallery,
     Image,
     Notices,
     Page,
+    PageSection,
+    PageTable,
     Prose,
-    Section,
-    Table,
+    SideBySide,
     Text,
 )
 from flexcage.report.cage_view import CageStress, cage_chart
@@ -38,14 +38,14 @@ class StudyAccount:
     status: str  # how many cases are done
     varied: Sequence[str]  # what was varied, in words
     base: Sequence[str]  # the base case, in words
-    statistics: Table  # a row a point
-    cases: Table  # a row a case
-    audits: Table  # energy and work, a row a case
+    statistics: PageTable  # a row a point
+    cases: PageTable  # a row a case
+    audits: PageTable  # energy and work, a row a case
     outputs: Sequence[Output]
     abscissas: Sequence[Abscissa]
     points: Sequence[str]  # names of the points
     failures: Sequence[str]
-    named: Sequence[Table] = ()  # what points with names of their own change
+    named: Sequence[PageTable] = ()  # what points with names of their own change
     stress: Sequence[CageStress] = ()  # of the cases shown
     scale: float = 1.0  # of their deformation
     images: Sequence[Image] = ()  # of their stress
@@ -59,19 +59,19 @@ def study_page(account: StudyAccount) -> Page:
     """The page: what was varied, verdicts and tables first; how to repeat it last."""
     verdicts = read_verdicts(account.folder)
     sections = [
-        Section("What was varied", [_varied(account), *account.named]),
-        *([Section("Verdicts", [verdicts])] if verdicts else []),
-        Section("Warnings", [Notices(account.failures, none="None.")]),
-        Section("Results", [account.statistics, account.cases]),
+        PageSection("What was varied", [_varied(account), *account.named]),
+        *([PageSection("Verdicts", [verdicts])] if verdicts else []),
+        PageSection("Warnings", [Notices(account.failures, none="None.")]),
+        PageSection("Results", [account.statistics, account.cases]),
         _comparison(account),
         *_stress(account),
         *filter(None, [extra_figures(account.folder)]),
-        Section("Energy audit and solver", [account.audits]),
-        Section("Base case", [
+        PageSection("Energy audit and solver", [account.audits]),
+        PageSection("Base case", [
             Prose(account.base),
             assumption_table(account.assumptions, fold="Its values that no source gives"),
         ]),
-        Section("How to reproduce", [
+        PageSection("How to reproduce", [
             Text("Commands", account.commands, open=True), Text("study.toml", account.study_text),
         ]),
     ]  # fmt: skip
@@ -81,13 +81,13 @@ def study_page(account: StudyAccount) -> Page:
 def _varied(account: StudyAccount) -> Block:
     """What was varied, beside the first picture that there is."""
     prose = Prose(account.varied)
-    return Beside(prose, account.images[0]) if account.images else prose
+    return SideBySide(prose, account.images[0]) if account.images else prose
 
 
-def _comparison(account: StudyAccount) -> Section:
+def _comparison(account: StudyAccount) -> PageSection:
     charts = comparison_charts(account.outputs, account.abscissas, account.points)
     if not charts:
-        return Section("Comparison", [Prose(["There is nothing to compare yet."])])
+        return PageSection("Comparison", [Prose(["There is nothing to compare yet."])])
     notes = ["Bars are 95 % intervals over the repetitions. Point at a mark for its case."]
     marks = len(account.points) * len(account.abscissas)  # of a chart
     kept = charts[: max(_FEWEST_CHARTS, _MOST_MARKS // marks)]
@@ -98,10 +98,10 @@ def _comparison(account: StudyAccount) -> Section:
     blocks: list[Block] = [Prose(notes), Charts(kept[:_MOST_OPEN])]
     if folded := kept[_MOST_OPEN:]:
         blocks.append(Charts(folded, f"{len(folded)} more outputs"))
-    return Section("Comparison", blocks)
+    return PageSection("Comparison", blocks)
 
 
-def _stress(account: StudyAccount) -> list[Section]:
+def _stress(account: StudyAccount) -> list[PageSection]:
     blocks: list[Block] = [Prose([account.chosen])] if account.chosen else []
     if account.images:
         blocks.append(Gallery(account.images))
@@ -112,4 +112,4 @@ def _stress(account: StudyAccount) -> list[Section]:
         blocks.append(
             Charts([view], "The same cages in 3D, to be turned") if account.images else view
         )
-    return [Section("Stress in the cage", blocks)] if blocks else []
+    return [PageSection("Stress in the cage", blocks)] if blocks else []

@@ -7,9 +7,9 @@ from dataclasses import replace
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
-from flexcage.report.blocks import Cell, Table
+from flexcage.report.blocks import Cell, PageTable
 from flexcage.results.audit import EXCEEDED, PASSED
-from flexcage.results.row import Row
+from flexcage.results.row import SummaryRow
 from flexcage.results.summary import Section
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ def number(value: Any, text: str | None = None) -> Cell:
     return Cell(text if text is not None else shown, float(value))
 
 
-def figure_cell(row: Row) -> Cell:
+def figure_cell(row: SummaryRow) -> Cell:
     """Value of a figure of a summary, as its text shows it."""
     value = row.value
     if row.text == "-":
@@ -40,7 +40,7 @@ def figure_cell(row: Row) -> Cell:
     return number(value if not isinstance(value, str) else str(value), row.text)
 
 
-def summary_table(sections: Iterable[Section], caption: str = "", *, fold: str = "") -> Table:
+def summary_table(sections: Iterable[Section], caption: str = "", *, fold: str = "") -> PageTable:
     """Figures of a summary's sections, with their intervals."""
     rows: list[list[Cell | str]] = [
         [row.label, figure_cell(row), _margin(row), typeset(row.shown), section.title, row.note]
@@ -48,11 +48,11 @@ def summary_table(sections: Iterable[Section], caption: str = "", *, fold: str =
         for row in section.shown
     ]
     return filled(
-        Table(("figure", "value", "± 95 %", "unit", "part", "remark"), rows, caption, fold)
+        PageTable(("figure", "value", "± 95 %", "unit", "part", "remark"), rows, caption, fold)
     )
 
 
-def filled(table: Table) -> Table:
+def filled(table: PageTable) -> PageTable:
     """The table without columns that are empty in every row."""
     if not table.rows:
         return table
@@ -66,35 +66,35 @@ def typeset(unit: str) -> str:
     return unit.replace("um", "µm").replace("us", "µs").replace("deg", "°").replace("*", "·")
 
 
-def _margin(row: Row) -> Cell:
+def _margin(row: SummaryRow) -> Cell:
     return Cell("") if row.margin is None else number(row.margin, row.margin_text)
 
 
-def rows_table(rows: Sequence[Row], caption: str = "") -> Table:
+def rows_table(rows: Sequence[SummaryRow], caption: str = "") -> PageTable:
     """A few figures of a summary."""
     cells: list[list[Cell | str]] = [
         [row.label, figure_cell(row), typeset(row.shown), row.note] for row in rows
     ]
-    return filled(Table(("figure", "value", "unit", "remark"), cells, caption))
+    return filled(PageTable(("figure", "value", "unit", "remark"), cells, caption))
 
 
 def mapping_table(
     head: tuple[str, str], values: Mapping[str, Any], caption: str = "", *, fold: str = ""
-) -> Table:
+) -> PageTable:
     """Names and texts."""
-    return Table(head, [[str(k), str(v)] for k, v in values.items()], caption, fold)
+    return PageTable(head, [[str(k), str(v)] for k, v in values.items()], caption, fold)
 
 
-def assumption_table(assumptions: Mapping[str, tuple[str, str]], *, fold: str) -> Table:
+def assumption_table(assumptions: Mapping[str, tuple[str, str]], *, fold: str) -> PageTable:
     """Paths of a case, their values, and the reasons for them; folded away."""
     rows = [[path, value, reason] for path, (value, reason) in assumptions.items()]
-    return Table(("path in the case", "value", "why it was chosen"), rows, fold=fold)
+    return PageTable(("path in the case", "value", "why it was chosen"), rows, fold=fold)
 
 
-def frame_table(frame: pandas.DataFrame, caption: str = "") -> Table:
+def frame_table(frame: pandas.DataFrame, caption: str = "") -> PageTable:
     """A data frame; its numbers keep five digits."""
     rows = [[_frame_cell(v) for v in values] for values in frame.itertuples(index=False)]
-    return Table([str(name) for name in frame.columns], rows, caption)
+    return PageTable([str(name) for name in frame.columns], rows, caption)
 
 
 def _frame_cell(value: Any) -> Cell:

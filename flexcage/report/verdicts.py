@@ -10,7 +10,7 @@ from typing import Any
 from flexcage.core.digits import texts_with_margin
 from flexcage.core.errors import InputError
 from flexcage.core.reading import read_json
-from flexcage.report.blocks import Cell, Table
+from flexcage.report.blocks import Cell, PageTable
 
 FILE, FORMAT = "verdicts.json", 1
 #: Outcomes, how they are shown (readable without colour), and their tone.
@@ -22,7 +22,7 @@ OUTCOMES = {
 _HEAD = ("claim", "verdict", "figures", "reason", "where it holds", "source")
 
 
-def read_verdicts(folder: str | Path) -> Table | None:
+def read_verdicts(folder: str | Path) -> PageTable | None:
     """Table of the verdicts in a folder; None if it has none, InputError if they are none."""
     path = Path(folder) / FILE
     if not path.is_file():
@@ -44,9 +44,9 @@ def read_verdicts(folder: str | Path) -> Table | None:
     rows = [_row(verdict, path) for verdict in verdicts]
     sources = {row[-1].text for row in rows}
     if len(sources) > 1:
-        return Table(_HEAD, rows, f"{_count(verdicts)}.")
+        return PageTable(_HEAD, rows, f"{_count(verdicts)}.")
     source = f" Source: {sources.pop()}." if any(sources) else ""
-    return Table(_HEAD[:-1], [row[:-1] for row in rows], f"{_count(verdicts)}.{source}")
+    return PageTable(_HEAD[:-1], [row[:-1] for row in rows], f"{_count(verdicts)}.{source}")
 
 
 def _count(verdicts: list[Mapping[str, Any]]) -> str:

@@ -14,7 +14,7 @@ from flexcage.core.errors import InputError
 from flexcage.core.listing import aligned, wrapped
 from flexcage.results.figures.figure import BRIEF, TEXT
 from flexcage.results.figures.table import FIGURES, marked
-from flexcage.results.row import Row, resolution
+from flexcage.results.row import SummaryRow, resolution
 from flexcage.results.summary import Summary
 
 TEN = 10
@@ -33,22 +33,22 @@ _MOST = 8  # values in which cases differ that are written out
 
 
 @dataclass(frozen=True)
-class Pair:
+class ComparedPair:
     """One figure of both runs; None in place of a run that does not have it."""
 
     key: str
-    first: Row | None
-    second: Row | None
+    first: SummaryRow | None
+    second: SummaryRow | None
 
     @property
-    def row(self) -> Row:
+    def row(self) -> SummaryRow:
         """The figure of the first run that has it."""
         found = self.first or self.second
         assert found is not None
         return found
 
     @property
-    def rows(self) -> tuple[Row | None, Row | None]:
+    def rows(self) -> tuple[SummaryRow | None, SummaryRow | None]:
         return self.first, self.second
 
     @property
@@ -121,10 +121,10 @@ class Comparison:
                 value=len(self.summaries),
             )
 
-    def __iter__(self) -> Iterator[Pair]:
+    def __iter__(self) -> Iterator[ComparedPair]:
         return (pair for pairs in self.sections.values() for pair in pairs)
 
-    def __getitem__(self, key: str) -> Pair:
+    def __getitem__(self, key: str) -> ComparedPair:
         """Both values of a figure, their ratio, and whether they differ beyond the intervals."""
         for pair in self:
             if pair.key == key:
@@ -140,19 +140,19 @@ class Comparison:
         return first, second
 
     @cached_property
-    def sections(self) -> dict[str, list[Pair]]:
+    def sections(self) -> dict[str, list[ComparedPair]]:
         """Figures that one of the runs or both print, by section, in the order of a summary."""
         first, second = ({row.key: row for row in s} for s in self.summaries.values())
-        found: dict[str, dict[str, Pair]] = {}
+        found: dict[str, dict[str, ComparedPair]] = {}
         for summary in self.summaries.values():
             for section in summary.sections:
                 for row in section.shown:
-                    pair = Pair(row.key, first.get(row.key), second.get(row.key))
+                    pair = ComparedPair(row.key, first.get(row.key), second.get(row.key))
                     found.setdefault(section.title, {})[row.key] = pair
         return {title: list(pairs.values()) for title, pairs in found.items()}
 
     @cached_property
-    def leading(self) -> list[Pair]:
+    def leading(self) -> list[ComparedPair]:
         """The ten figures that matter, of those that both runs have."""
         pairs = {pair.key: pair for pair in self if pair.numbers is not None}
         brief = [key for key in marked(BRIEF) if TEXT not in FIGURES[key].marks]
@@ -259,7 +259,7 @@ class Comparison:
         return json.dumps(self.to_dict(), indent=2, ensure_ascii=False)
 
 
-def _cells(pair: Pair) -> tuple[str, ...]:
+def _cells(pair: ComparedPair) -> tuple[str, ...]:
     """A line of the table; sentences have the line for themselves."""
     first, second = pair.texts
     words = [row.value for row in pair.rows if row and isinstance(row.value, str)]

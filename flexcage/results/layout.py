@@ -24,7 +24,7 @@ Coord = tuple[tuple[str, ...], np.ndarray, dict[str, Any]]
 
 
 @dataclass(frozen=True)
-class Layout:
+class StoreLayout:
     """Sizes, coordinates and variables of one run; ``coords`` holds (dims, values, attrs)."""
 
     variables: tuple[Variable, ...]
@@ -99,7 +99,7 @@ def make_layout(
     block: int,
     block_hf: int | None,
     attrs: Mapping[str, Any],
-) -> Layout:
+) -> StoreLayout:
     """Check what a caller asks for and complete it with the fixed labels of the registry."""
     table = tuple(variable(v) if isinstance(v, str) else v for v in variables)
     if block_hf is None:
@@ -114,7 +114,7 @@ def make_layout(
             if dim not in LABELS:
                 raise InputError(f"Dimension {dim!r} needs labels: pass coords[{dim!r}].")
             full[dim] = ((dim,), np.array(LABELS[dim]), {})
-    return Layout(table, full, n_time, n_time_hf, block, block_hf, dict(attrs))
+    return StoreLayout(table, full, n_time, n_time_hf, block, block_hf, dict(attrs))
 
 
 def _coord(name: str, value: Any) -> Coord:
@@ -126,7 +126,12 @@ def _coord(name: str, value: Any) -> Coord:
 
 
 def label_dataset(
-    layout: Layout, data: Mapping[str, Any], *, n_time: int, n_time_hf: int, state: dict[str, Any]
+    layout: StoreLayout,
+    data: Mapping[str, Any],
+    *,
+    n_time: int,
+    n_time_hf: int,
+    state: dict[str, Any],
 ) -> xarray.Dataset:
     """Dataset of the first ``n_time`` and ``n_time_hf`` samples with labels and units.
 

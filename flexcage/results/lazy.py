@@ -12,7 +12,7 @@ from xarray.backends import BackendArray
 from xarray.core import indexing
 
 from flexcage.core.errors import RunFailed
-from flexcage.results.layout import Layout
+from flexcage.results.layout import StoreLayout
 from flexcage.results.registry import Variable
 from flexcage.results.shards import decoded
 
@@ -22,7 +22,7 @@ class Blocks:
     """The blocks of one variable on disk: ``read`` gives their chunks, ``refuse`` the error of one
     that cannot be read."""
 
-    layout: Layout
+    layout: StoreLayout
     variable: Variable
     read: Callable[[Sequence[int]], list[bytes | None]]
     refuse: Callable[[], Exception]

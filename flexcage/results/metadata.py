@@ -20,7 +20,7 @@ from flexcage.core.reading import json_of, read_json, table_of
 from flexcage.core.writing import check_name
 from flexcage.results.commit import FORMAT, SIDE, damaged
 from flexcage.results.door import NODE, TYPES, array_shape, group_attributes, read_array
-from flexcage.results.layout import Layout, coords_from_json, coords_to_json
+from flexcage.results.layout import StoreLayout, coords_from_json, coords_to_json
 from flexcage.results.registry import LABELS, TIME, TIME_HF, Variable
 from flexcage.results.shards import BLOSC, SLOTS
 
@@ -29,7 +29,7 @@ _GRIDS = (TIME, TIME_HF)
 _CHUNK = re.compile(r"c(/\d+)*")  # a file of an array's chunk
 
 
-def create_arrays(path: Path, layout: Layout) -> None:
+def create_arrays(path: Path, layout: StoreLayout) -> None:
     """Allocate the arrays of a layout at ``path``, and write its instants and labels."""
     import zarr
     from zarr.codecs import BloscCodec, Crc32cCodec, TransposeCodec
@@ -85,12 +85,12 @@ def create_arrays(path: Path, layout: Layout) -> None:
         zarr.consolidate_metadata(str(path), zarr_format=3)
 
 
-def slots(layout: Layout) -> int:
+def slots(layout: StoreLayout) -> int:
     """Blocks that a file has room for."""
     return min(SLOTS, max(layout.n_blocks, 1))
 
 
-def read_layout(path: Path) -> Layout:
+def read_layout(path: Path) -> StoreLayout:
     """The layout of a run on disk; InputError or ValueError for one that cannot be."""
     attributes = group_attributes(read_json(path / NODE))
     stored = table_of(
@@ -103,7 +103,7 @@ def read_layout(path: Path) -> Layout:
             node = read_json(path / grid / NODE)
             about = table_of(node.get("attributes", {}))
             coords[grid] = ((grid,), read_array(path / grid), about)
-    layout = Layout(
+    layout = StoreLayout(
         tuple(Variable(**{**v, "dims": tuple(v["dims"])}) for v in stored["variables"]),
         coords,
         stored["n_time"],
@@ -116,7 +116,7 @@ def read_layout(path: Path) -> Layout:
     return layout
 
 
-def _check_layout(path: Path, layout: Layout) -> None:
+def _check_layout(path: Path, layout: StoreLayout) -> None:
     """ValueError or InputError for names that lead out of the folder, and for sizes and types that
     are not those of the arrays there."""
     if layout.block < 1 or layout.block_hf < 0 or min(layout.n_time, layout.n_time_hf) < 0:
@@ -139,7 +139,7 @@ def _check_layout(path: Path, layout: Layout) -> None:
         _check_array(path, layout, v)
 
 
-def _check_array(path: Path, layout: Layout, variable: Variable) -> None:
+def _check_array(path: Path, layout: StoreLayout, variable: Variable) -> None:
     """Compare a variable's array with the layout, which says how it is read."""
     name = variable.name
     if not (path / name / NODE).exists():
@@ -152,7 +152,7 @@ def _check_array(path: Path, layout: Layout, variable: Variable) -> None:
         raise damaged(path, f"has an array '{name}' of other sizes than it says")
 
 
-def metadata_checksum(path: Path, layout: Layout) -> str:
+def metadata_checksum(path: Path, layout: StoreLayout) -> str:
     """64 digits that change with all that says what the arrays are: attributes, shapes, labels,
     instants."""
     digest = hashlib.sha256()
@@ -165,7 +165,7 @@ def metadata_checksum(path: Path, layout: Layout) -> str:
     return digest.hexdigest()
 
 
-def _metadata_files(path: Path, layout: Layout) -> Iterable[str]:
+def _metadata_files(path: Path, layout: StoreLayout) -> Iterable[str]:
     yield NODE
     for v in layout.variables:
         yield f"{v.name}/{NODE}"

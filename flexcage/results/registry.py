@@ -34,9 +34,9 @@ from flexcage.core.wings import FAMILIES, Parts
 from flexcage.modes.basis import FACES
 
 if TYPE_CHECKING:
-    from flexcage.system.problem import Bearing
+    from flexcage.system.problem import BearingSystem
 
-    Compute = Callable[[Mapping[str, np.ndarray], Bearing], np.ndarray]
+    Compute = Callable[[Mapping[str, np.ndarray], BearingSystem], np.ndarray]
 
 NEIGHBOURS = "neighbour_force"
 TIME = "time"

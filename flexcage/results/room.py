@@ -10,7 +10,7 @@ import numpy as np
 
 from flexcage.core.errors import EnvironmentLacks
 from flexcage.core.memory import in_bytes
-from flexcage.results.layout import Layout
+from flexcage.results.layout import StoreLayout
 
 log = logging.getLogger(__name__)
 
@@ -27,7 +27,9 @@ _BESIDE = {False: 0.25e6, True: 1.5e6}
 _SURELY = 0.5  # of an estimate, for runs differ
 
 
-def expected_rate(layout: Layout, rate: float, vibration_rate: float, *, flexible: bool) -> float:
+def expected_rate(
+    layout: StoreLayout, rate: float, vibration_rate: float, *, flexible: bool
+) -> float:
     """Bytes on disk for a second of bearing time, by what a layout records; modes may be left out
     of it, which take little."""
     found = _STEPS[flexible]

@@ -82,7 +82,7 @@ def format_value(value: float, shown: str = "", margin: float | None = None) -> 
 
 
 @dataclass(frozen=True)
-class Row:
+class SummaryRow:
     """One figure: ``value`` in SI (or a text, a count); ``shown`` is the unit it is printed in.
 
     ``margin`` is half the width of the value's 95 % interval, in SI; None where there is none.

@@ -92,7 +92,7 @@ class BearingNumbers:
 
 
 @dataclass(frozen=True)
-class CageSpeed:
+class MeanSpeed:
     """Mean cage speed over whole revolutions [rad/s]; ``slip_ratio`` (w_m - w_c)/w_m.
 
     ``epicyclic`` is the speed w_m of pure rolling at the run's own mean contact angles,
@@ -151,13 +151,13 @@ def speed_of(ds: xarray.Dataset) -> ElementSpeed:
     return found
 
 
-def cage_speed(ds: xarray.Dataset, bearing: BearingNumbers) -> CageSpeed:
+def cage_speed(ds: xarray.Dataset, bearing: BearingNumbers) -> MeanSpeed:
     """Mean speed of the cage, or without one of the elements' orbits, against the epicyclic speeds
     of the mean inner speed."""
     return speed_over(metrics.whole_revolutions(ds), bearing)
 
 
-def speed_over(part: xarray.Dataset, bearing: BearingNumbers) -> CageSpeed:
+def speed_over(part: xarray.Dataset, bearing: BearingNumbers) -> MeanSpeed:
     """The same over all of a part of a run."""
     t, angle = part["time"].values, metrics.carrier_angle(part)
     mean = (angle[-1] - angle[0]) / (t[-1] - t[0])
@@ -167,7 +167,7 @@ def speed_over(part: xarray.Dataset, bearing: BearingNumbers) -> CageSpeed:
     )
     slips = [(w - mean) / w if abs(w) > STANDING else float("nan") for w in (own, nominal)]
     turns = abs(angle[-1] - angle[0]) / (2.0 * np.pi)
-    return CageSpeed(mean, own, slips[0], turns, nominal, slips[1])
+    return MeanSpeed(mean, own, slips[0], turns, nominal, slips[1])
 
 
 def at_own_angles(ds: xarray.Dataset, bearing: BearingNumbers) -> BearingNumbers:

@@ -41,7 +41,7 @@ from flexcage.results.commit import (
 )
 from flexcage.results.door import NODE
 from flexcage.results.files import disk, joined, load, make_room, npz_of, save
-from flexcage.results.layout import Arrays, Layout, label_dataset, make_layout
+from flexcage.results.layout import Arrays, StoreLayout, label_dataset, make_layout
 from flexcage.results.metadata import create_arrays, metadata_checksum, read_layout, slots
 from flexcage.results.registry import TIME, TIME_HF, Variable, rounded_loads
 from flexcage.results.shards import Chunks, encoded, packed, unpacked
@@ -62,7 +62,7 @@ class MemoryRunStore:
 
     path: Path | None = None
 
-    def __init__(self, layout: Layout) -> None:
+    def __init__(self, layout: StoreLayout) -> None:
         self.layout = layout
         self._commit: dict[str, Any] = {"blocks": 0, "n_time": 0, "n_time_hf": 0}
         self._checkpoint: dict[str, np.ndarray] | None = None
@@ -216,7 +216,7 @@ class RunStore(MemoryRunStore):
 
     path: Path
 
-    def __init__(self, path: Path, layout: Layout, commit: dict[str, Any]) -> None:
+    def __init__(self, path: Path, layout: StoreLayout, commit: dict[str, Any]) -> None:
         self.path = path
         super().__init__(layout)
         self._commit = commit

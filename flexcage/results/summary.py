@@ -21,7 +21,7 @@ from flexcage.core.warning import RunWarning
 from flexcage.core.writing import replace as replace_file
 from flexcage.results.figures.figure import BRIEF
 from flexcage.results.figures.table import FIGURES, marked
-from flexcage.results.row import Row, Value
+from flexcage.results.row import SummaryRow, Value
 from flexcage.results.statistics import Record
 
 _WORD = 16  # characters: a longer text is no figure, and stands in no column
@@ -32,15 +32,15 @@ _WARNINGS = "warnings"  # their key in a summary's JSON
 @dataclass(frozen=True)
 class Section:
     title: str
-    rows: tuple[Row, ...]
+    rows: tuple[SummaryRow, ...]
 
     @property
-    def shown(self) -> tuple[Row, ...]:
+    def shown(self) -> tuple[SummaryRow, ...]:
         """The rows that are printed."""
         return tuple(row for row in self.rows if not row.idle)
 
 
-def _cells(rows: Sequence[Row], *, brief: bool = False) -> list[Sequence[str]]:
+def _cells(rows: Sequence[SummaryRow], *, brief: bool = False) -> list[Sequence[str]]:
     """Label, figure and note of some rows; the values, margins and units of all of them stand in
     columns. Words take the room of figure and note. ``brief`` notes are short."""
     numbers = [r for r in rows if len(r.text) <= _WORD]
@@ -57,7 +57,7 @@ def _cells(rows: Sequence[Row], *, brief: bool = False) -> list[Sequence[str]]:
     return found
 
 
-def _rows_html(rows: Iterable[Row], *, brief: bool = False) -> str:
+def _rows_html(rows: Iterable[SummaryRow], *, brief: bool = False) -> str:
     """Label, value, margin, unit and note of figures; ``brief`` notes are short."""
     cells = [
         (r.label, r.text, r.margin_text, r.shown, r.brief_note if brief else r.note) for r in rows
@@ -86,13 +86,13 @@ class Summary:
     sections: tuple[Section, ...] = ()
     warnings: tuple[RunWarning, ...] | None = None
 
-    def __iter__(self) -> Iterator[Row]:
+    def __iter__(self) -> Iterator[SummaryRow]:
         return (row for section in self.sections for row in section.rows)
 
     def __getitem__(self, key: str) -> Value:
         return self.row(key).value
 
-    def row(self, key: str) -> Row:
+    def row(self, key: str) -> SummaryRow:
         """The whole figure: value, margin, label and unit."""
         for row in self:
             if row.key == key:
@@ -102,14 +102,14 @@ class Summary:
     def __contains__(self, key: str) -> bool:
         return any(row.key == key for row in self)
 
-    def with_figures(self, rows: Sequence[Row], *, after: str = "") -> Summary:
+    def with_figures(self, rows: Sequence[SummaryRow], *, after: str = "") -> Summary:
         """A copy with the section of these figures, as ``FIGURES`` calls that of the first; without
         rows the summary itself."""
         if not rows:
             return self
         return self.with_section(FIGURES[rows[0].key].section, rows, after=after)
 
-    def with_section(self, title: str, rows: Sequence[Row], *, after: str = "") -> Summary:
+    def with_section(self, title: str, rows: Sequence[SummaryRow], *, after: str = "") -> Summary:
         """A copy with one more section, behind that of the figure ``after`` or at the end, or with
         that section replaced."""
         new = Section(title, tuple(rows))
@@ -147,7 +147,7 @@ class Summary:
         parts = ["\n".join(self._warning_lines(width)), table]
         return "\n\n".join(filter(None, parts)) or "(no figures)"
 
-    def _brief_rows(self) -> list[Row]:
+    def _brief_rows(self) -> list[SummaryRow]:
         wanted = marked(BRIEF)
         return [row for row in self if row.key in wanted and row.text != "-"]
 
@@ -208,7 +208,8 @@ class Summary:
                 Section(
                     title,
                     tuple(
-                        Row(key, r["label"], r["value"], r["shown"], r["note"], r.get("margin"),
+                        SummaryRow(
+                            key, r["label"], r["value"], r["shown"], r["note"], r.get("margin"),
                             records.get(key), r.get("idle", False))
                         for key, r in rows.items()
                     ),

@@ -36,7 +36,7 @@ _PASSED = 1e-6  # m by which a cage must pass a ring, more than rounding
 
 
 @dataclass(frozen=True, kw_only=True)
-class Outcome:
+class RunOutcome:
     """What is known of a run at its end, or as far as it came."""
 
     summary: Summary
@@ -66,7 +66,7 @@ class Outcome:
         return float(value) if isinstance(value, (int, float)) else float("nan")
 
 
-def _unfinished(o: Outcome) -> Iterator[RunWarning]:
+def _unfinished(o: RunOutcome) -> Iterator[RunWarning]:
     reached = float(o.dataset["time"][-1])
     if reached < o.duration * (1.0 - 1e-3):
         yield RunWarning(
@@ -76,7 +76,7 @@ def _unfinished(o: Outcome) -> Iterator[RunWarning]:
         )
 
 
-def _yield(o: Outcome) -> Iterator[RunWarning]:
+def _yield(o: RunOutcome) -> Iterator[RunWarning]:
     known = [v for v in (o.number("stress_peak"), o.number("stress_start")) if isfinite(v)]
     peak, material = max(known, default=0.0), o.its_cage.material
     if peak > material.proof_stress:
@@ -88,7 +88,7 @@ def _yield(o: Outcome) -> Iterator[RunWarning]:
         )
 
 
-def _overloaded(o: Outcome) -> Iterator[RunWarning]:
+def _overloaded(o: RunOutcome) -> Iterator[RunWarning]:
     """Forces beyond what ISO 76 allows the most loaded element under the static rating: 5 C0r/(Z
     cos(alpha)) of a radial bearing, C0a/(Z sin(alpha)) of a thrust bearing."""
     b = o.bearing
@@ -106,7 +106,7 @@ def _overloaded(o: Outcome) -> Iterator[RunWarning]:
         )
 
 
-def _thrown_off(o: Outcome) -> Iterator[RunWarning]:
+def _thrown_off(o: RunOutcome) -> Iterator[RunWarning]:
     # A land ends the growth of a whirl, also of one that rotation has made larger: no later failure
     # is to be told. How far the cage swings and how hard it strikes are figures of the summary.
     if has_land(o.its_cage, o.land) or any(_stops(o)):
@@ -129,12 +129,12 @@ def _thrown_off(o: Outcome) -> Iterator[RunWarning]:
         )
 
 
-def _stops(o: Outcome) -> tuple[RingLand | None, RingLand | None]:
+def _stops(o: RunOutcome) -> tuple[RingLand | None, RingLand | None]:
     """Where a run computes the contact of the cage with rings that do not guide it."""
     return (None, None) if o.land.kind == "none" else o.bearing.stops(o.its_cage)
 
 
-def _passes_ring(o: Outcome) -> Iterator[RunWarning]:
+def _passes_ring(o: RunOutcome) -> Iterator[RunWarning]:
     ds, cage = o.dataset, o.its_cage
     tilt = metrics.tilt(ds).sel(component="total").values
     guided = has_land(cage, o.land) and cage.land_ring
@@ -167,7 +167,7 @@ def _passes_ring(o: Outcome) -> Iterator[RunWarning]:
             )
 
 
-def _short(o: Outcome) -> Iterator[RunWarning]:
+def _short(o: RunOutcome) -> Iterator[RunWarning]:
     if "short_run" in o.said:
         return
     part = metrics.settled(o.dataset, o.settle)
@@ -185,7 +185,7 @@ def _short(o: Outcome) -> Iterator[RunWarning]:
         )
 
 
-def _drift(o: Outcome) -> Iterator[RunWarning]:
+def _drift(o: RunOutcome) -> Iterator[RunWarning]:
     drift = o.summary["drift"] if "drift" in o.summary else None
     if drift not in (None, NO_DRIFT):
         yield RunWarning(
@@ -195,7 +195,7 @@ def _drift(o: Outcome) -> Iterator[RunWarning]:
         )
 
 
-def _audit(o: Outcome) -> Iterator[RunWarning]:
+def _audit(o: RunOutcome) -> Iterator[RunWarning]:
     if "energy_audit" not in o.summary or o.summary["energy_audit"] != EXCEEDED:
         return
     shares = (
@@ -213,7 +213,7 @@ def _audit(o: Outcome) -> Iterator[RunWarning]:
     )
 
 
-def _slip(o: Outcome) -> Iterator[RunWarning]:
+def _slip(o: RunOutcome) -> Iterator[RunWarning]:
     note = o.summary.row("slip_loaded").note if "slip_loaded" in o.summary else ""
     if note.startswith("unresolved"):
         yield RunWarning(
@@ -221,23 +221,23 @@ def _slip(o: Outcome) -> Iterator[RunWarning]:
         )
 
 
-def _over_edge(o: Outcome) -> Iterator[RunWarning]:
+def _over_edge(o: RunOutcome) -> Iterator[RunWarning]:
     for edge in o.edges:
         if edge.warning:
             yield RunWarning("over_edge", edge.warning[0].upper() + edge.warning[1:])
 
 
-def _large_rotation(o: Outcome) -> Iterator[RunWarning]:
+def _large_rotation(o: RunOutcome) -> Iterator[RunWarning]:
     yield from large_rotation(o.shape)
 
 
-def _grown_into_ring(o: Outcome) -> Iterator[RunWarning]:
+def _grown_into_ring(o: RunOutcome) -> Iterator[RunWarning]:
     cage = o.its_cage
     guided = cage.land_ring if has_land(cage, o.land) else ""
     yield from grown_into_ring(o.shape, cage, o.bearing.cage_space(cage), guided)
 
 
-def _elements_touch(o: Outcome) -> Iterator[RunWarning]:
+def _elements_touch(o: RunOutcome) -> Iterator[RunWarning]:
     count = o.number("element_touches")
     if count > 0.0:
         yield RunWarning(
@@ -247,7 +247,7 @@ def _elements_touch(o: Outcome) -> Iterator[RunWarning]:
         )
 
 
-def _own_figures(o: Outcome) -> Iterator[RunWarning]:
+def _own_figures(o: RunOutcome) -> Iterator[RunWarning]:
     yield from own_warnings(o.summary)
 
 
@@ -256,7 +256,7 @@ def _um(length: float) -> str:
 
 
 #: What is looked at when a run has come to its end.
-AT_END: tuple[Callable[[Outcome], Iterator[RunWarning]], ...] = (
+AT_END: tuple[Callable[[RunOutcome], Iterator[RunWarning]], ...] = (
     _unfinished,
     _yield,
     _overloaded,

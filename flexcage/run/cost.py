@@ -25,7 +25,7 @@ from flexcage.core.writing import replace
 from flexcage.integrate.foresight import LONG
 from flexcage.integrate.recorded import new_store
 from flexcage.results import room
-from flexcage.results.layout import Layout
+from flexcage.results.layout import StoreLayout
 from flexcage.stages import bearing_to_compile
 
 log = logging.getLogger(__name__)
@@ -64,7 +64,7 @@ class Cost:
         return room.expected_size(rate, case.solver.duration, flexible=flexible)
 
     @cached_property
-    def _layout(self) -> Layout:
+    def _layout(self) -> StoreLayout:
         """What a run of the first case records; the others' differ little."""
         assert self._first is not None
         bearing, recording = bearing_to_compile(self._first), recording_of(self._first.bearing)

@@ -34,12 +34,12 @@ from flexcage.results.warnings import to_text
 from flexcage.run.cage_sizes import check_sizes
 from flexcage.run.folder import check_links, keep_cage, kept_cage, write_case
 from flexcage.stages import Cage, made_cage
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 
 
 def run_store(
     case: Case,
-    bearing: Bearing,
+    bearing: BearingSystem,
     cage: Cage,
     folder: Path | None,
     *,

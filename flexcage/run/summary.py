@@ -10,15 +10,15 @@ from flexcage.results.figures.cage import SUPPORT, CageFacts, cage_rows
 from flexcage.results.figures.effort import SOLVER, TIMES
 from flexcage.results.figures.figure import rows_of
 from flexcage.results.figures.film import FILM, Lubricated
-from flexcage.results.figures.part import Part
+from flexcage.results.figures.part import SettledRun
 from flexcage.results.figures.sections import summarise
 from flexcage.results.figures.stress import RIVETS, stress_rows
 from flexcage.results.figures.table import FIGURES
-from flexcage.results.row import Row
+from flexcage.results.row import SummaryRow
 from flexcage.results.slip import SlipRange
 from flexcage.results.summary import Summary
 from flexcage.results.warnings import from_attrs, warnings_of
-from flexcage.results.warnings_at_end import AT_END, CAGELESS_AT_END, Outcome
+from flexcage.results.warnings_at_end import AT_END, CAGELESS_AT_END, RunOutcome
 from flexcage.run.elastic import elastic_shape
 from flexcage.run.folder import seam_warnings
 
@@ -47,11 +47,11 @@ def summary_of(run: RunRecord, *, stress: bool = True) -> Summary:
     return warned(timed(summary, run), run)
 
 
-def part_of(run: RunRecord) -> Part:
+def part_of(run: RunRecord) -> SettledRun:
     """What figures of a run's motion and forces are taken from."""
     case, friction = run.case, run.case.contacts.race.friction
     slip_range = SlipRange(friction.creeps_below, friction.rises_below)
-    return Part(run.dataset, run.numbers, case.output.settle, slip_range, run.events)
+    return SettledRun(run.dataset, run.numbers, case.output.settle, slip_range, run.events)
 
 
 def with_stress(summary: Summary, run: RunRecord) -> Summary:
@@ -66,7 +66,7 @@ def warned(summary: Summary, run: RunRecord) -> Summary:
     """The summary with its warnings."""
     case = run.case
     known = (*from_attrs(run.dataset.attrs), *seam_warnings(run.store))
-    outcome = Outcome(
+    outcome = RunOutcome(
         summary=summary,
         dataset=run.dataset,
         bearing=case.bearing,
@@ -88,7 +88,7 @@ def timed(summary: Summary, run: RunRecord) -> Summary:
     return summary.with_section(TIMES.section, rows_of(stages, run.stages))
 
 
-def _cage_rows(run: RunRecord) -> tuple[Row, ...]:
+def _cage_rows(run: RunRecord) -> tuple[SummaryRow, ...]:
     cage, start = run.case.cage, run.start
     if cage is None:
         return ()

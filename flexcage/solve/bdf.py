@@ -80,7 +80,7 @@ class BDFState(NamedTuple):
     coef: np.ndarray  # (3, MAX_ORDER + 1) gamma, (1 - kappa) gamma, error constants
 
 
-class Options(NamedTuple):
+class BDFOptions(NamedTuple):
     max_order: int
     h_max: float
     h_min: float
@@ -408,8 +408,8 @@ def _choose(st, opt, error, work):
     count[EQUAL] = 0
 
 
-def _options(solver: Any) -> Options:
-    return Options(
+def _options(solver: Any) -> BDFOptions:
+    return BDFOptions(
         solver.max_order, solver.max_step, solver.min_step, solver.newton_tolerance,
         solver.max_steps,
     )  # fmt: skip

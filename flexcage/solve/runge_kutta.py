@@ -91,7 +91,7 @@ class RKState(NamedTuple):
     exact: np.ndarray  # (2, ROWS, m) weights: of the step, of a part of it
 
 
-class Options(NamedTuple):
+class RungeKuttaOptions(NamedTuple):
     h_max: float
     h_min: float
     max_steps: int
@@ -285,8 +285,8 @@ def spectral_radius(fns, data, st, iterations, nudge):
     return np.exp(growth / used) if used > 0 else 0.0
 
 
-def _options(solver: Any) -> Options:
-    return Options(solver.max_step, solver.min_step, solver.max_steps)
+def _options(solver: Any) -> RungeKuttaOptions:
+    return RungeKuttaOptions(solver.max_step, solver.min_step, solver.max_steps)
 
 
 def _refresh(state: RKState) -> None:

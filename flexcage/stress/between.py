@@ -67,7 +67,7 @@ def no_steps(first: int, end: int) -> None:
     """No steps between samples."""
 
 
-class Between:
+class StoredSteps:
     """The loads of a run at steps between its samples at times ``t`` [s], read block by block;
     ``inner``: the cage rides on the inner ring's land."""
 

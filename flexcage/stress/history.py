@@ -357,7 +357,7 @@ def stress_history(
     """Places and peaks over samples, the envelope from sample ``settled`` on.
 
     Other arguments as in ``equivalent_stress``, but read block by block, so that a long run may
-    stay on disk. ``between`` gives the steps between samples (``between.Between``). Blocks of
+    stay on disk. ``between`` gives the steps between samples (``between.StoredSteps``). Blocks of
     samples are spread over the cores; ``progress`` is a context like ``core.progress.Progress``.
     """
 

@@ -34,7 +34,7 @@ def on_lands(force: np.ndarray, *, inner: bool) -> np.ndarray:
     return out
 
 
-class LandForces:
+class LandLoads:
     """``land_station_forces`` of a recorded run, sample by sample as they are asked for."""
 
     def __init__(self, ds: xarray.Dataset, *, inner: bool) -> None:

@@ -24,7 +24,7 @@ class PlaceKind:
     many: str
     short: str  # many of them, in few words
     walls: str  # what the search for a peak leaves out, in few words
-    left_out: str  # the same, exactly: see ``Places``
+    left_out: str  # the same, exactly: see ``StressPlaces``
 
 
 def no_fillets(model: FEModel, interface: Any, pocket_count: int, keep: Keeping) -> list[Fillet]:
@@ -33,7 +33,7 @@ def no_fillets(model: FEModel, interface: Any, pocket_count: int, keep: Keeping)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Places:
+class StressPlaces:
     """Where the stress of the cages of a type is followed, from their model and number of pockets.
 
     ``roots``: vertices of every named place ("pocket3_..."). ``contact_zone``: vertices of the

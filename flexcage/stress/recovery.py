@@ -20,7 +20,7 @@ from flexcage.fem.model import FEModel
 from flexcage.modes.basis import ContactInterface, ModeBasis
 from flexcage.modes.pockets import pocket_frames
 from flexcage.stress.fillets import Arrays, Fillet
-from flexcage.stress.places import Places
+from flexcage.stress.places import StressPlaces
 from flexcage.stress.surface import SurfaceStress
 
 STRESS_VERSION = 1  # of what is kept: raise it when the same cage gives other fields or joints
@@ -65,7 +65,7 @@ class StressRecovery:
         basis: ModeBasis,
         interface: ContactInterface,
         *,
-        places: Places,
+        places: StressPlaces,
         solver: FreeBodySolver | None = None,
         solver_kind: str = "auto",
         keep: Keep = _compute,
@@ -100,7 +100,7 @@ class StressRecovery:
 
     @cached_property
     def contact_zone(self) -> np.ndarray:
-        """Vertices that the search for a peak leaves out (``places.Places``)."""
+        """Vertices that the search for a peak leaves out (``places.StressPlaces``)."""
         return self.places.contact_zone(self.model, self.pocket_count)
 
     @cached_property

@@ -33,8 +33,8 @@ from flexcage.mesh.riveted_joint import (
     RIVET,
     ROOTS,
     UPPER,
-    Bodies,
     JointMesh,
+    RevolvedBodies,
     joint_bodies,
 )
 from flexcage.stress.notch import READINGS, SOFT_STEELS, CyclicSteel, NotchLife, notch_life
@@ -91,7 +91,7 @@ class Peak:
 
 
 @dataclass(frozen=True, eq=False)
-class Instant:
+class JointState:
     """One state of the joint: displacement (n, 3) [m], stress (n, 6) [Pa] at nodes, contact."""
 
     name: str
@@ -113,9 +113,9 @@ class JointResult:
 
     shape: JointShape
     fit: Fit
-    bodies: Bodies
+    bodies: RevolvedBodies
     problem: ContactProblem
-    instants: Mapping[str, Instant]
+    instants: Mapping[str, JointState]
     places: Mapping[str, np.ndarray]  # nodes
 
     def peaks(self, instant: str = "again") -> list[Peak]:
@@ -328,11 +328,11 @@ class RivetedJoint:
 
     def _instant(
         self, name: str, load: np.ndarray, problem: ContactProblem, state: ContactState
-    ) -> Instant:
+    ) -> JointState:
         b = self.bodies
         stress = curved_stress(b.nodes, b.tets, self.material, state.moved)
         forces = problem.resultants(state, np.zeros(3))
-        return Instant(name, load, state, stress, _heads(forces), forces)
+        return JointState(name, load, state, stress, _heads(forces), forces)
 
     @cached_property
     def places(self) -> dict[str, np.ndarray]:

@@ -21,14 +21,14 @@ from flexcage.results.metrics import carrier_angle, element, settled
 from flexcage.results.slip import BearingNumbers
 from flexcage.results.statistics import element_passes
 from flexcage.results.store import MemoryRunStore
-from flexcage.stress.between import Between
+from flexcage.stress.between import StoredSteps
 from flexcage.stress.counting import require_pylife
 from flexcage.stress.fatigue import Fatigue, chosen_places, counted_stress, place_fatigue
 from flexcage.stress.fields import StressFields, TensorFields
 from flexcage.stress.history import StressHistory, histories_at, stress_bound, stress_history
-from flexcage.stress.loads import LandForces, cage_loads
+from flexcage.stress.loads import LandLoads, cage_loads
 from flexcage.stress.operators import von_mises
-from flexcage.stress.places import Places, in_words
+from flexcage.stress.places import StressPlaces, in_words
 from flexcage.stress.recovery import STRESS_VERSION, StressRecovery
 from flexcage.stress.rivets import Joints, RivetFields, Rivets, rivet_loads
 from flexcage.stress.series import as_time, samples_near
@@ -52,7 +52,7 @@ class StressField:
         return von_mises(self.stress)
 
 
-def recovery_of(cage: CageReduction, places: Places) -> StressRecovery:
+def recovery_of(cage: CageReduction, places: StressPlaces) -> StressRecovery:
     """Stress recovery of a flexible cage, whose type has these ``places``; what it costs to prepare
     is kept in the cache."""
 
@@ -82,7 +82,7 @@ class RunStress:
     """
 
     cage: CageReduction
-    places: Places
+    places: StressPlaces
     mesh: CageMesh
     dataset: xarray.Dataset
     store: MemoryRunStore
@@ -223,14 +223,14 @@ class RunStress:
         return int(self.settle * self.dataset.sizes["time"])
 
     @property
-    def _between(self) -> Between:
+    def _between(self) -> StoredSteps:
         """Steps between samples, anew: what is read of them is not kept for the run's life."""
-        return Between(self.store, self.dataset["time"].values, inner=self.inner_land)
+        return StoredSteps(self.store, self.dataset["time"].values, inner=self.inner_land)
 
-    def _moved_and_pushed(self, ds: xarray.Dataset) -> tuple[Any, Any, LandForces | None]:
+    def _moved_and_pushed(self, ds: xarray.Dataset) -> tuple[Any, Any, LandLoads | None]:
         """Modal coordinates, station forces and land forces of samples: what histories want.
 
         Read from disk slice by slice: a second of a roller bearing has 0.4 GB of station forces.
         """
-        land = LandForces(ds, inner=self.inner_land)
+        land = LandLoads(ds, inner=self.inner_land)
         return ds["modal_coordinates"], ds["station_force"], land or None

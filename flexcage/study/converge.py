@@ -22,7 +22,7 @@ from flexcage.mesh.options import FINENESS
 from flexcage.results.figures.figure import CONVERGENCE, STATISTIC
 from flexcage.results.figures.table import FIGURES, marked
 from flexcage.results.files import load, save
-from flexcage.results.row import Row
+from flexcage.results.row import SummaryRow
 from flexcage.results.statistics import spread
 from flexcage.results.summary import Summary
 from flexcage.run.folder import write_case
@@ -286,7 +286,7 @@ def _findings(level: Level, finest: Level, figures: dict[str, Summary | str]) ->
     ]  # fmt: skip
 
 
-def _spread(one: Row, other: Row) -> float:
+def _spread(one: SummaryRow, other: SummaryRow) -> float:
     """Relative margin of a difference: from windows in pairs, or of runs taken as independent."""
     if STATISTIC not in FIGURES[one.key].marks:
         return 0.0

@@ -12,7 +12,7 @@ from typing import Any
 from flexcage.core.listing import PAGE, aligned, wrapped
 from flexcage.core.warning import RunWarning
 from flexcage.core.writing import write_text, written
-from flexcage.results.row import Row
+from flexcage.results.row import SummaryRow
 
 GOAL = 0.02  # relative difference within which a statistic counts as converged
 MOST_DIGITS = 9
@@ -88,7 +88,7 @@ class Convergence:
     """
 
     name: str
-    own: tuple[Row, ...]
+    own: tuple[SummaryRow, ...]
     findings: tuple[Finding, ...]
     compared: dict[str, tuple[str, str]]
     failures: dict[str, str]

@@ -36,7 +36,7 @@ from flexcage.core.warning import RunWarning
 from flexcage.core.writing import check_own, replace, sync
 from flexcage.study.about import About, from_store, to_store
 from flexcage.study.origin import Origin, stored_origin
-from flexcage.study.outputs import Figure
+from flexcage.study.outputs import StudyFigure
 from flexcage.study.plan import Plan, Planned
 from flexcage.study.spec import FORMAT, Study, check_format, stored_study, stored_table
 
@@ -64,7 +64,7 @@ class CaseRow:
 
     hash: str
     seconds: float
-    figures: Mapping[str, Figure]
+    figures: Mapping[str, StudyFigure]
     warnings: tuple[RunWarning, ...]
     values: Mapping[str, Any]
     origin: Origin
@@ -185,7 +185,7 @@ class Folder:
         try:
             if stored["hash"] != name:
                 raise _lacks(path, f"the figures of this case but of {stored['hash']}")
-            figures = {key: Figure(*values) for key, values in stored["figures"].items()}
+            figures = {key: StudyFigure(*values) for key, values in stored["figures"].items()}
             warnings = tuple(RunWarning(*values) for values in stored["warnings"])
             origin = stored_origin(stored["origin"])
             return CaseRow(name, stored["seconds"], figures, warnings, stored["values"], origin)

@@ -49,7 +49,7 @@ from flexcage.results.registry import (
     families_with,
     variable,
 )
-from flexcage.results.row import Row, Value
+from flexcage.results.row import SummaryRow, Value
 from flexcage.results.statistics import element_passes
 from flexcage.stress.counting import require_pylife
 from flexcage.stress.sn_curves import sn_curve
@@ -76,7 +76,7 @@ _LABELS_OF_A_RUN = {"energy_kind": ENERGIES, "channel": tuple(POWERS)}
 
 
 @dataclass(frozen=True)
-class Figure:
+class StudyFigure:
     """One number of a run: SI ``value``, its unit, and the unit it is printed in ("" for SI).
 
     ``margin`` is half the width of its 95 % interval by the run itself, None where it has none.
@@ -105,13 +105,13 @@ class Reduction:
         last = self.variable.dims[-1]
         return units[LABELS[last].index(self.selection[last])]
 
-    def of(self, run: Run) -> Figure:
+    def of(self, run: Run) -> StudyFigure:
         """The figure, with its unit and, where windows of the run give one, its margin; NaN where
         the run has no such variable: modes of a rigid cage, rings that do not bend."""
         reducer, unit = REDUCTIONS[self.reduce], self.unit
         name, dim = self.variable.name, self.variable.dims[0]
         if name in VARIABLES and name not in run.dataset:
-            return Figure(nan, unit)
+            return StudyFigure(nan, unit)
         part = whole_revolutions(settled(run.dataset, run.case.output.settle))
         array = DERIVED[name].compute(part, run.numbers) if name in DERIVED else part[name]
         for along, label in self.selection.items():
@@ -136,20 +136,20 @@ class Reduction:
             turns = round(abs(float(np.ptp(carrier_angle(part)))) / (2.0 * pi))
             half = reducer.margin_by_turns(values, step, turns)
         value = reducer.over_turns(values, step, turns)
-        return Figure(value, unit, "", half if isfinite(half) else None)
+        return StudyFigure(value, unit, "", half if isfinite(half) else None)
 
 
-def _fatigue(run: Run) -> dict[str, Figure]:
+def _fatigue(run: Run) -> dict[str, StudyFigure]:
     """Damage and life at the worst place."""
     return _figures_in(DAMAGE.rows(run.fatigue().worst.rate))
 
 
-def _wear(run: Run) -> dict[str, Figure]:
+def _wear(run: Run) -> dict[str, StudyFigure]:
     """Volume from all pockets, and the depth of the deepest track at first."""
     return _figures_in(TRACKS.rows(run.wear()))
 
 
-def _rivets(run: Run) -> dict[str, Figure]:
+def _rivets(run: Run) -> dict[str, StudyFigure]:
     """The largest loads of rivets; none of a cage that has no stress or no rivets."""
     if not run.case.riveted:
         return {}
@@ -157,19 +157,19 @@ def _rivets(run: Run) -> dict[str, Figure]:
     return _figures_in([*rows, *RIVETS_TIME.rows(run.stages)])
 
 
-def _stress(run: Run) -> dict[str, Figure]:
+def _stress(run: Run) -> dict[str, StudyFigure]:
     """Equivalent stress, which a case leaves out while no output of its study needs it."""
     rows = stress_rows(run.cage_stress.figures)
     return _figures_in([*rows, *STRESS_TIME.rows(run.stages)])
 
 
-def _figures_in(rows: Iterable[Row]) -> dict[str, Figure]:
-    return {r.key: Figure(r.value, r.unit, r.shown, r.margin) for r in rows}
+def _figures_in(rows: Iterable[SummaryRow]) -> dict[str, StudyFigure]:
+    return {r.key: StudyFigure(r.value, r.unit, r.shown, r.margin) for r in rows}
 
 
 _COMPUTED = {FATIGUE: _fatigue, WEAR: _wear, RIVETED: _rivets}
 #: Figures that a summary may not hold: what computes them together.
-LATE_FIGURES: Mapping[str, Callable[[Run], dict[str, Figure]]] = {
+LATE_FIGURES: Mapping[str, Callable[[Run], dict[str, StudyFigure]]] = {
     name: _stress if figure.section == STRESS.section else _COMPUTED[figure.needs]
     for name, figure in FIGURES.items()
     if figure.section == STRESS.section or figure.needs in _COMPUTED
@@ -450,18 +450,18 @@ def _check_figure(name: str) -> None:
     raise InputError(f"There is no output '{name}'; {hint}.", where="outputs", value=name)
 
 
-def figures_of(run: Run, beyond: tuple[str, ...]) -> dict[str, Figure]:
+def figures_of(run: Run, beyond: tuple[str, ...]) -> dict[str, StudyFigure]:
     """All figures of the summary at the run's end, and those asked for beyond it; by name."""
     found = _figures_in(run.summary_at_end)
     return found | late_figures(run, lacking(beyond, found))
 
 
-def late_figures(run: Run, names: tuple[str, ...]) -> dict[str, Figure]:
+def late_figures(run: Run, names: tuple[str, ...]) -> dict[str, StudyFigure]:
     """Figures beyond the summary, by name, those computed together with them included."""
-    found: dict[str, Figure] = {}
+    found: dict[str, StudyFigure] = {}
     for compute in dict.fromkeys(LATE_FIGURES[name] for name in names if name in LATE_FIGURES):
         found |= compute(run)
     if not own_figures().keys().isdisjoint(names):
         found |= _figures_in(row for row in run.summary_at_end if row.key in own_figures())
-    found |= {name: Figure(*values) for name, values in own_values(run, names).items()}
+    found |= {name: StudyFigure(*values) for name, values in own_values(run, names).items()}
     return found | {name: parse_reduction(name).of(run) for name in names if is_reduction(name)}

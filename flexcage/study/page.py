@@ -8,7 +8,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from flexcage.core.units import typeset
-from flexcage.report.blocks import Image, Table
+from flexcage.report.blocks import Image, PageTable
 from flexcage.report.page import PageTooLarge, write_page
 from flexcage.report.study_page import StudyAccount, study_page
 from flexcage.study.axes import Grid, Points, Zip
@@ -124,10 +124,10 @@ def _has_names(axis: Any) -> bool:
     return isinstance(axis, Points) and all("label" in point for point in axis.points)
 
 
-def _named(axis: Any) -> Table:
+def _named(axis: Any) -> PageTable:
     """A row for every point of an axis: its name, and what it changes in the base case."""
     rows = [[str(p["label"]), "; ".join(_changes(p)) or "nothing"] for p in axis.points]
-    return Table((axis.name, "changes"), rows)
+    return PageTable((axis.name, "changes"), rows)
 
 
 def _changes(point: Mapping[str, Any]) -> Iterator[str]:

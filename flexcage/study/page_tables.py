@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from flexcage.report.blocks import Cell, Table
+from flexcage.report.blocks import Cell, PageTable
 from flexcage.report.comparison import Abscissa, Output
 from flexcage.report.tables import figure_cell, filled, number, typeset
 from flexcage.results.figures.figure import EFFORT
 from flexcage.results.figures.table import FIGURES, marked
-from flexcage.results.row import SHOWN, Row, format_value
+from flexcage.results.row import SHOWN, SummaryRow, format_value
 from flexcage.study.axes import LatinHypercube, Points, Sobol, Zip
-from flexcage.study.outputs import Figure, never_negative
+from flexcage.study.outputs import StudyFigure, never_negative
 from flexcage.study.words import in_words
 
 if TYPE_CHECKING:
@@ -81,16 +81,16 @@ def _headed(title: str, unit: str) -> str:
     return f"{title} [{unit}]" if unit != "1" else title
 
 
-def _unit(figure: Figure | None) -> str:
+def _unit(figure: StudyFigure | None) -> str:
     """Unit that an output is shown in; "1" for none."""
     return (typeset(figure.shown or figure.unit) if figure else "") or "1"
 
 
-def _factor(figure: Figure | None) -> float:
+def _factor(figure: StudyFigure | None) -> float:
     return SHOWN[figure.shown][1] if figure else 1.0
 
 
-def statistics_table(results: StudyRecord) -> Table:
+def statistics_table(results: StudyRecord) -> PageTable:
     """A row a point: what varies, how many runs, and every output's mean and interval."""
     titles, frame = _titles(results), results.statistics
     axes = list(results.axes_of(results.rows[0].planned))
@@ -111,7 +111,7 @@ def statistics_table(results: StudyRecord) -> Table:
         caption += f" The first {MOST_ROWS:,} of {len(frame):,} points; statistics.csv has all."
     words = heads(results)
     head = ("point", *(words[axis] for axis in axes), "runs", *titles.values())
-    return Table(head, rows, caption)
+    return PageTable(head, rows, caption)
 
 
 def _value_cell(value: Any) -> Cell:
@@ -125,7 +125,7 @@ def _mean_cell(results: StudyRecord, name: str, mean: Any, half: float) -> Cell:
     return number(float(mean), " ".join(format_value(float(mean), shown, half)).rstrip())
 
 
-def cases_table(results: StudyRecord) -> Table:
+def cases_table(results: StudyRecord) -> PageTable:
     """A row a case: what varies, its outputs, and what became of it."""
     titles = _titles(results)
     rows = []
@@ -142,7 +142,7 @@ def cases_table(results: StudyRecord) -> Table:
         "point", "repetition", "folder", "state", *heads(results).values(), *titles.values(),
         "processor time [s]", "reason", "warnings",
     )  # fmt: skip
-    return filled(Table(head, rows, f"{_share(results)} Runs lie in the folder cases."))
+    return filled(PageTable(head, rows, f"{_share(results)} Runs lie in the folder cases."))
 
 
 def _share(results: StudyRecord) -> str:
@@ -152,10 +152,10 @@ def _share(results: StudyRecord) -> str:
     return f"The first {MOST_ROWS:,} of {len(results.rows):,} cases; table.csv has all."
 
 
-def _cell(figure: Figure | None, key: str = "") -> Cell:
+def _cell(figure: StudyFigure | None, key: str = "") -> Cell:
     if figure is None:
         return Cell(_NONE)
-    return figure_cell(Row(key, "", figure.value, figure.shown, margin=figure.margin))
+    return figure_cell(SummaryRow(key, "", figure.value, figure.shown, margin=figure.margin))
 
 
 def stored_figure(results: StudyRecord, row: ResultRow, key: str) -> Any:
@@ -165,7 +165,7 @@ def stored_figure(results: StudyRecord, row: ResultRow, key: str) -> Any:
     return None if figure is None else figure.value
 
 
-def audit_table(results: StudyRecord) -> Table:
+def audit_table(results: StudyRecord) -> PageTable:
     """Energy audit and the solver's work, a row a finished case."""
     rows, keys = [], marked(EFFORT)
     for r in results.rows[:MOST_ROWS]:
@@ -177,7 +177,7 @@ def audit_table(results: StudyRecord) -> Table:
         rows.append([*place, *map(_cell, found, keys)])
     heads = [_headed(FIGURES[key].title, FIGURES[key].shown or "1") for key in keys]
     caption = f"Energy audit and the solver's work. {_share(results)}"
-    return filled(Table(("point", "repetition", *heads), rows, caption))
+    return filled(PageTable(("point", "repetition", *heads), rows, caption))
 
 
 def outputs(results: StudyRecord) -> list[Output]:

@@ -25,7 +25,7 @@ from flexcage.run import Run
 from flexcage.simulate import load_run
 from flexcage.study.folder import CaseRow, Folder
 from flexcage.study.origin import Origin, told_apart
-from flexcage.study.outputs import Figure
+from flexcage.study.outputs import StudyFigure
 from flexcage.study.plan import Plan, Planned
 from flexcage.study.spec import Study, value_at
 
@@ -52,7 +52,7 @@ class ResultRow:
     state: str
     reason: str
     seconds: float
-    figures: Mapping[str, Figure]
+    figures: Mapping[str, StudyFigure]
     warnings: tuple[RunWarning, ...] = ()
     origin: Origin | None = None
 
@@ -249,7 +249,7 @@ class StudyRecord:
         return paths
 
     @cached_property
-    def known(self) -> dict[str, Figure]:
+    def known(self) -> dict[str, StudyFigure]:
         """One figure of every output that any case has, for its units."""
         return {k: f for row in self.rows for k, f in row.figures.items()}
 
@@ -303,7 +303,7 @@ def mean_and_half_width(values: Any) -> tuple[float, float]:
     return float(sample.mean()), float(half)
 
 
-def _value(figure: Figure | None) -> Any:
+def _value(figure: StudyFigure | None) -> Any:
     return None if figure is None else figure.value
 
 

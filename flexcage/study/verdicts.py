@@ -159,7 +159,7 @@ def range_along(name: str, outcomes: Mapping[float, str], *, unit: str = "") -> 
 
 
 @dataclass(frozen=True)
-class Line:
+class EvidenceLine:
     """One figure that a verdict rests on, in the unit it is shown in."""
 
     label: str
@@ -175,7 +175,7 @@ class Verdict:
     key: str
     claim: str
     outcome: str
-    figures: tuple[Line, ...] = field(default=())
+    figures: tuple[EvidenceLine, ...] = field(default=())
     range: str = ""
     reason: str = ""
     source: str = ""
@@ -219,7 +219,7 @@ def read_verdicts(folder: str | Path) -> list[Verdict]:
 
 def _verdict(table: Mapping[str, Any]) -> Verdict:
     lines = [
-        Line(line["label"], _number(line["value"]), _number(line["margin"]), line["unit"])
+        EvidenceLine(line["label"], _number(line["value"]), _number(line["margin"]), line["unit"])
         for line in table["figures"]
     ]
     return Verdict(**{**table, "figures": tuple(lines)})

@@ -42,7 +42,7 @@ class Model(Protocol):
 
 M = TypeVar("M", bound=Model)
 Built = TypeVar("Built", bound=Model, covariant=True)
-Assembled = TypeVar("Assembled", contravariant=True)  # a ``problem.Bearing``
+Assembled = TypeVar("Assembled", contravariant=True)  # a ``problem.BearingSystem``
 
 
 class BuildModel(Protocol[Built]):

@@ -83,7 +83,7 @@ class Events(NamedTuple):
     pocket_force_peak: np.ndarray  # (Z, faces) the largest since the last sample, between steps too
 
 
-class Samples(NamedTuple):
+class SampleBuffers(NamedTuple):
     """One block of reports on the sampling grid; every ``stride``-th fine sample is a main one."""
 
     stride: int
@@ -105,7 +105,7 @@ class Samples(NamedTuple):
     force: np.ndarray  # (n * stride, 2) on the outer ring, fine grid
 
 
-class Between(NamedTuple):
+class BetweenSamples(NamedTuple):
     """What moves and pushes a flexible cage at accepted steps, one block of them; forces on the
     faces of pockets that are touched, one row a face. Full, it keeps the first ones."""
 
@@ -126,8 +126,8 @@ class BearingData(NamedTuple):
     work: Work
     matrix: Bordered
     events: Events
-    samples: Samples
-    between: Between
+    samples: SampleBuffers
+    between: BetweenSamples
     rates: RatesWork
     constraints: Constraints
     places: Places
@@ -143,21 +143,21 @@ def parts(kind: Any, data: BearingData) -> Any:
     return kind(*(boxed(group) for group in groups))
 
 
-def new_samples(n: int, stride: int, report: Report) -> Samples:
+def new_samples(n: int, stride: int, report: Report) -> SampleBuffers:
     """Room for n reports."""
-    reported = [name for name in Samples._fields if name in Report._fields]
+    reported = [name for name in SampleBuffers._fields if name in Report._fields]
     kept = {name: np.zeros((n, *getattr(report, name).shape)) for name in reported}
     peak = np.zeros((n, *report.pocket_normal.shape))
-    return Samples(stride=stride, **kept, pocket_peak=peak, force=np.zeros((n * stride, 2)))
+    return SampleBuffers(stride=stride, **kept, pocket_peak=peak, force=np.zeros((n * stride, 2)))
 
 
-def new_between(n: int, interval: float, modes: int, report: Report) -> Between:
+def new_between(n: int, interval: float, modes: int, report: Report) -> BetweenSamples:
     """Room for the steps of a block of n samples, ``interval`` [s] apart, in which an element
     touches one face on average; none without modes."""
     apart = min(APART, 0.1 * interval)
     steps = n * ceil(interval / apart) if modes else 0
     rows, z, small = steps * len(report.station), np.zeros, np.float32
-    return Between(
+    return BetweenSamples(
         z(steps), z((steps, modes)), z((steps, *report.land_station.shape), small),
         z(steps, np.int64), z((rows, 2), np.int64), z((rows, *report.station.shape[2:]), small),
         z(2, np.int64), np.full(2, -np.inf), np.array([apart, interval]),
@@ -185,7 +185,7 @@ def _evaluation(bearing: Any, law: Any) -> Any:
     return types.void(_REAL, _VECTOR, _VECTOR, bearing, law, _VECTOR, _COUNT)
 
 
-class Bearing:
+class BearingSystem:
     """A bearing ready to be integrated: its data, and functions that are compiled when needed."""
 
     def __init__(
@@ -285,7 +285,7 @@ class Bearing:
                 for function in self.motion.separate
             ),
             lambda: self.evaluate,
-            lambda: self._advance_of(method, state, runge_kutta.Options(1.0, 0.0, 1)),
+            lambda: self._advance_of(method, state, runge_kutta.RungeKuttaOptions(1.0, 0.0, 1)),
             lambda: kernel_for(newton.newton_step, _REAL, _VECTOR, _VECTOR, at, tangent, matrix),
             lambda: kernel_for(newton.assemble, _REAL, bodies, at, tangent, matrix),
             *(partial(self.function, name) for name in method.functions),

@@ -13,7 +13,7 @@ from flexcage.core.errors import InputError, RunFailed
 from flexcage.system.begun import Advance, Start, StaticStart
 from flexcage.system.constraints import POSITION, check_independent
 from flexcage.system.layout import Layout
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 from flexcage.system.scales import ERROR_RATE
 from flexcage.system.spec import Constraint, StartOptions
 
@@ -23,7 +23,7 @@ _ONTO, _NEAR = 40, 1e-12  # steps onto constraints; [m, rad] how near they must 
 
 
 def find_start(
-    bearing: Bearing,
+    bearing: BearingSystem,
     *,
     limit_force: float,
     statics: StaticStart | None = None,
@@ -50,7 +50,7 @@ def with_push(start: Start, layout: Layout, options: StartOptions) -> Start:
 
 
 def constrained(
-    start: Start, bearing: Bearing, constraints: Sequence[Constraint], *, limit_force: float
+    start: Start, bearing: BearingSystem, constraints: Sequence[Constraint], *, limit_force: float
 ) -> Start:
     """The start with rings and cage moved onto the bearing's further constraints.
 

@@ -9,7 +9,7 @@ import pytest
 
 from flexcage.bearings.ball import slip as ball_slip
 from flexcage.case.presets import load_preset
-from flexcage.results.figures.part import Part
+from flexcage.results.figures.part import SettledRun
 from flexcage.results.figures.sections import summarise
 from flexcage.results.registry import VARIABLES
 from flexcage.results.slip import (
@@ -89,7 +89,7 @@ def test_slip_counts_from_rolling_at_the_angles_of_loaded_balls(run):
 
 
 def test_the_summary_names_both_references(run):
-    s = summarise(Part(run, NUMBERS, settle=0.0))
+    s = summarise(SettledRun(run, NUMBERS, settle=0.0))
     note = s.row("epicyclic_speed").note
     assert note == "pure rolling at the mean contact angles, 24.1 deg inner, 12.6 deg outer"
     assert s["cage_slip_ratio"] == pytest.approx(SLIP, rel=1e-5)
@@ -104,7 +104,7 @@ def test_balls_without_load_and_without_angles_have_the_nominal_one(run):
     free["race_force"][:] = 0.0
     assert at_own_angles(free, NUMBERS) == NUMBERS
     assert rolling_by_curvature(free, NUMBERS) is None
-    s = summarise(Part(free, NUMBERS, settle=0.0))
+    s = summarise(SettledRun(free, NUMBERS, settle=0.0))
     assert s["epicyclic_speed"] == s["epicyclic_speed_nominal"]
     assert s.row("epicyclic_speed").note == ""
 
@@ -142,10 +142,12 @@ def test_a_slip_that_curvature_makes_is_not_laid_to_the_traction_curve(run):
     assert "balls roll" in limits.note(-0.003, (0.03, 0.02), (0.02, 0.01))
     assert "traction curve's slope" in limits.note(-0.003, (0.03, 0.02))
     assert "creep speed" in SlipRange(creep=0.1).note(-0.003, (0.03, 0.02), (0.02, 0.01))
-    slow = summarise(Part(run, NUMBERS, settle=0.0, slip_range=limits)).row("slip_loaded").note
+    slow = (
+        summarise(SettledRun(run, NUMBERS, settle=0.0, slip_range=limits)).row("slip_loaded").note
+    )
     assert slow.startswith("balls roll: the grooves' curvature alone")
     flat = replace(NUMBERS, rolling_heights=(0.0, 0.0))
-    told = summarise(Part(run, flat, settle=0.0, slip_range=limits)).row("slip_loaded").note
+    told = summarise(SettledRun(run, flat, settle=0.0, slip_range=limits)).row("slip_loaded").note
     assert "traction curve's slope" in told
 
 

@@ -18,7 +18,7 @@ from numba.np.arrayobj import populate_array
 
 from flexcage.core.jit import LEAN
 from flexcage.system.data import POWERS
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 
 _POINTER, _REAL = types.CPointer(types.float64), types.float64
 _HELD = 4096  # bytes kept for the arguments of a bearing
@@ -82,7 +82,7 @@ class CFunctions:
     A snapshot: it calls the bearing with the arguments of the moment when it was made.
     """
 
-    def __init__(self, bearing: Bearing) -> None:
+    def __init__(self, bearing: BearingSystem) -> None:
         kinds = tuple(types.FunctionType(bearing.signature(name)) for name in _NAMES)
         both = types.Tuple((types.Tuple(kinds), bearing.data_type))
         self.bearing, self.size = bearing, bearing.layout.size

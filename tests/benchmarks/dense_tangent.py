@@ -11,7 +11,7 @@ from c_functions import CFunctions
 
 from flexcage.core.rotation import quaternion_rate, rotation_of_quaternion_change
 from flexcage.system.layout import Layout
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 
 _OF_RING = (5, 3, 4)  # coordinates that belong to its (spin, skew, tilt)
 _FORCED = np.array([0, 4, 5, 3])  # the inner ring's velocities that lambda acts on, in its order
@@ -68,7 +68,7 @@ def _whole(rr: np.ndarray, rb: np.ndarray, br: np.ndarray, bb: np.ndarray, layou
     return whole
 
 
-def kinematics(bearing: Bearing, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def kinematics(bearing: BearingSystem, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """(n_q, n_u) rates of coordinates by velocities, and (n_u, n_q) displacements of changes."""
     layout, turns = bearing.layout, bearing.data.work.tangent.turns
     Z = layout.elements

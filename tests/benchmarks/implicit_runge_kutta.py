@@ -14,7 +14,7 @@ from numba import types
 from flexcage.core.jit import kernel
 from flexcage.solve.bdf import BDF
 from flexcage.system.data import POWERS
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 
 _G = 0.43586652150845899942  # root of g^3 - 3 g^2 + 3 g/2 - 1/6
 _B = -(6.0 * _G**2 - 16.0 * _G + 1.0) / 4.0
@@ -78,7 +78,7 @@ def march(fns, data, t0, y, yd, weight, table, nodes, step, every, tolerance, po
 
 
 def integrate(
-    bearing: Bearing,
+    bearing: BearingSystem,
     t0: float,
     y: np.ndarray,
     yd: np.ndarray,

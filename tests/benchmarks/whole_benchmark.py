@@ -192,17 +192,17 @@ def _clocks() -> dict[str, float]:
     from flexcage.integrate.integration import Integration
     from flexcage.run import Run
     from flexcage.stress import run_stress
-    from flexcage.system.problem import Bearing
+    from flexcage.system.problem import BearingSystem
 
     spent: dict[str, float] = {}
-    _timed(Bearing, "advance", time.thread_time, spent, "integrator")
-    timed = Bearing.advance
+    _timed(BearingSystem, "advance", time.thread_time, spent, "integrator")
+    timed = BearingSystem.advance
 
     def advance(self: Any, integrator: Any, state: Any, options: Any, *rest: Any) -> Any:
         self._advance_of(integrator, state, options)  # read from disk: not the integrator's time
         return timed(self, integrator, state, options, *rest)
 
-    Bearing.advance = advance  # type: ignore[method-assign]
+    BearingSystem.advance = advance  # type: ignore[method-assign]
     _timed(Integration, "march", time.process_time, spent, "march")
     _timed(run_stress, "stress_history", time.process_time, spent, "stress")
     _timed(Run, "draw", _with_children, spent, "pictures")

@@ -9,7 +9,7 @@ from flexcage import load_case, load_static
 from flexcage.core.binding import near_names
 from flexcage.core.errors import InputError
 from flexcage.results.registry import variable
-from flexcage.results.row import Row
+from flexcage.results.row import SummaryRow
 from flexcage.results.summary import Section, Summary
 
 BEARING = '[bearing]\npreset = "N1013"\n'
@@ -97,7 +97,7 @@ def test_hints_do_not_depend_on_case_or_strokes():
 
 
 def test_a_summary_names_the_nearest_figure():
-    summary = Summary((Section("Speeds", (Row("cage_speed", "Cage speed", 1.0),)),))
+    summary = Summary((Section("Speeds", (SummaryRow("cage_speed", "Cage speed", 1.0),)),))
     with pytest.raises(KeyError) as caught:
         summary["cage_sped"]
     text = "The summary has no figure 'cage_sped'; the nearest name is 'cage_speed'."

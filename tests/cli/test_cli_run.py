@@ -13,14 +13,16 @@ from flexcage import cli
 from flexcage.cli.settings import parse_setting
 from flexcage.core.errors import EnvironmentLacks, RunFailed
 from flexcage.core.timing import Stages
-from flexcage.results.row import Row
+from flexcage.results.row import SummaryRow
 from flexcage.results.summary import Section, Summary
 
 EXAMPLE = str(Path(__file__).parents[2] / "examples" / "n1013.toml")
 
 
 class FakeRun:
-    summary = Summary((Section("Speeds", (Row("cage_speed", "Cage speed", 283.7, "rpm"),)),), ())
+    summary = Summary(
+        (Section("Speeds", (SummaryRow("cage_speed", "Cage speed", 283.7, "rpm"),)),), ()
+    )
 
     def __init__(self):
         self.drawn, self.stages, self.told, self.look = [], Stages(), [], {}
@@ -178,10 +180,10 @@ def test_cache(corridor, capsys):
 
 def test_doctor_fails_only_for_what_a_run_needs(monkeypatch, capsys):
     from flexcage.core import environment
-    from flexcage.core.environment import Finding
+    from flexcage.core.environment import Checked
 
-    picture = Finding("rendering", False, "no EGL", "apt-get x", needed=False)
-    gmsh = Finding("gmsh", False, "libGLU", "apt-get y")
+    picture = Checked("rendering", False, "no EGL", "apt-get x", needed=False)
+    gmsh = Checked("gmsh", False, "libGLU", "apt-get y")
     monkeypatch.setattr(environment, "probe", lambda: [picture])
     assert cli.main(["doctor"]) == 0
     assert "remedy: apt-get x" in capsys.readouterr().out

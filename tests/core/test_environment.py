@@ -6,7 +6,7 @@ import os
 import pytest
 
 from flexcage.core import environment
-from flexcage.core.environment import Outcome, offscreen_backend, probe
+from flexcage.core.environment import CheckOutcome, offscreen_backend, probe
 from flexcage.core.errors import EnvironmentLacks
 from flexcage.core.offscreen import opening_window
 
@@ -26,7 +26,7 @@ def pretend(monkeypatch, works):
 
     def run(source, *, env=None):
         window = (env or {}).get("VTK_DEFAULT_OPENGL_WINDOW", "default")
-        return Outcome(0, "drawn x\n", "") if window in works else Outcome(-11, "", "")
+        return CheckOutcome(0, "drawn x\n", "") if window in works else CheckOutcome(-11, "", "")
 
     monkeypatch.setattr(environment, "run_python", run)
 
@@ -93,7 +93,7 @@ def test_a_probe_that_is_killed_is_survived():
 
 def test_missing_library_of_gmsh_gets_a_command(monkeypatch):
     error = "Traceback\nOSError: libGLU.so.1: cannot open shared object file"
-    monkeypatch.setattr(environment, "run_python", lambda s, env=None: Outcome(1, "", error))
+    monkeypatch.setattr(environment, "run_python", lambda s, env=None: CheckOutcome(1, "", error))
     finding = environment._gmsh()
     assert not finding.ok and "libGLU.so.1" in finding.detail and "libglu1-mesa" in finding.remedy
 

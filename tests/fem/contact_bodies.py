@@ -8,7 +8,7 @@ from flexcage.fem.contact import ContactProblem, Touching
 from flexcage.fem.curved import curved_stiffness, face_points
 from flexcage.fem.parting import Parted
 from flexcage.geometry.materials import MATERIALS
-from flexcage.mesh.revolved import Bodies, Section, revolved
+from flexcage.mesh.revolved import HalfPlane, RevolvedBodies, revolved
 
 STEEL = MATERIALS["steel"]
 
@@ -25,7 +25,7 @@ def grid(radii, heights, body, first):
     return vertices, triangles, np.full(len(triangles), body), number
 
 
-def sleeve_on_shaft(radii, heights, sectors) -> Bodies:
+def sleeve_on_shaft(radii, heights, sectors) -> RevolvedBodies:
     """A shaft of ``radii[0]`` in a sleeve of ``radii[1]``, which share a radius."""
     inner = grid(radii[0], heights, 0, 0)
     outer = grid(radii[1], heights, 1, inner[3].size)
@@ -36,14 +36,14 @@ def sleeve_on_shaft(radii, heights, sectors) -> Bodies:
         "fit": np.stack([shared[:-1], shared[1:]], axis=1),
         "end": np.stack([inner[3][:-1, -1], inner[3][1:, -1]], axis=1),
     }
-    section = Section(
+    section = HalfPlane(
         np.vstack([inner[0], outer[0]]), swap[np.vstack([inner[1], outer[1]])],
         np.concatenate([inner[2], outer[2]]), {}, curves,
     )  # fmt: skip
     return revolved(section, sectors)
 
 
-def stacked(radii, heights, sectors) -> Bodies:
+def stacked(radii, heights, sectors) -> RevolvedBodies:
     """Two discs on each other at x = 0."""
     lower = grid(radii, -np.asarray(heights)[::-1], 0, 0)
     upper = grid(radii, heights, 1, lower[3].size)
@@ -54,14 +54,14 @@ def stacked(radii, heights, sectors) -> Bodies:
         name: np.stack([line[:-1], line[1:]], axis=1)
         for name, line in (("fit", face), ("end", top), ("base", base))
     }
-    section = Section(
+    section = HalfPlane(
         np.vstack([lower[0], upper[0]]), swap[np.vstack([lower[1], upper[1]])],
         np.concatenate([lower[2], upper[2]]), {}, curves,
     )  # fmt: skip
     return revolved(section, sectors)
 
 
-def problem(bodies: Bodies, friction: float, held: np.ndarray, penalty=1e16, springs=1.0):
+def problem(bodies: RevolvedBodies, friction: float, held: np.ndarray, penalty=1e16, springs=1.0):
     """The contact of the curve "fit", body 0 first."""
     faces = bodies.faces["fit", 0]
     pair = Touching("fit", faces, bodies.faces["fit", 1], bodies.behind(0, faces), friction)
@@ -71,7 +71,7 @@ def problem(bodies: Bodies, friction: float, held: np.ndarray, penalty=1e16, spr
     return ContactProblem(parted, [pair], penalty=penalty)
 
 
-def loads_on(bodies: Bodies, faces: np.ndarray, traction) -> np.ndarray:
+def loads_on(bodies: RevolvedBodies, faces: np.ndarray, traction) -> np.ndarray:
     """Nodal loads (n, 3) of a traction(places) (q, 3) on faces."""
     points = face_points(bodies.nodes, faces)
     return points.shapes.T @ (points.weights[:, None] * traction(points.places))

@@ -11,11 +11,11 @@ from flexcage.geometry.materials import MATERIALS
 from flexcage.geometry.ring import Raceway, RingSection
 from flexcage.mesh.section import mesh_section
 from flexcage.modes.half_space import line_compliance, spot_compliance
-from flexcage.modes.ring import Held, natural_frequencies, reduce_ring
+from flexcage.modes.ring import RingSeat, natural_frequencies, reduce_ring
 
 STEEL = MATERIALS["steel"]
 E, NU, RHO = STEEL.youngs_modulus, STEEL.poisson_ratio, STEEL.density
-FREE = Held(rigidly=False)
+FREE = RingSeat(rigidly=False)
 RADIUS, SIDE = 0.05, 0.001  # a thin ring: h/R = 0.02, square section
 I, AREA = SIDE**4 / 12.0, SIDE**2
 
@@ -99,7 +99,7 @@ def layer(nu):
 def test_what_is_left_of_a_layer_on_a_rigid_base():
     """On a base so near, a large ring yields less than the half-space, by a known amount."""
     wall = 0.004
-    ring = reduce_ring(plain(0.2, wall, 0.04, extent=0.001, line=False), STEEL, Held())
+    ring = reduce_ring(plain(0.2, wall, 0.04, extent=0.001, line=False), STEEL, RingSeat())
     expected = (1.0 - NU**2) / (np.pi * E * wall) * layer(NU)
     assert expected < 0.0
     assert ring.local[1, 1] == pytest.approx(expected, rel=0.02)
@@ -108,7 +108,7 @@ def test_what_is_left_of_a_layer_on_a_rigid_base():
 @pytest.mark.parametrize("line", (False, True))
 def test_what_is_left_hardly_depends_on_the_patch(line):
     section = plain(0.03, 0.006, 0.02, extent=0.006 if line else 0.001, line=line)
-    found = [reduce_ring(section, STEEL, Held(), along=a) for a in (0.27, 0.18)]
+    found = [reduce_ring(section, STEEL, RingSeat(), along=a) for a in (0.27, 0.18)]
     port = 0 if line else 1
     local = [ring.local[port, port] for ring in found]
     whole = found[1].half_space[port, port] + abs(local[1])
@@ -136,7 +136,7 @@ def test_half_space_between_pairs_of_points_of_a_line():
 def test_foundation_that_is_stiff_is_a_rigid_seat():
     section = plain(0.03, 0.006, 0.02, extent=0.006, line=True)
     rigid, firm = (reduce_ring(section, STEEL, held)
-                   for held in (Held(), Held(rigidly=False, foundation=1e18)))  # fmt: skip
+                   for held in (RingSeat(), RingSeat(rigidly=False, foundation=1e18)))  # fmt: skip
     assert firm.local == pytest.approx(rigid.local, rel=1e-4, abs=1e-12)
 
 
@@ -144,7 +144,7 @@ def test_soft_foundation_carries_the_ring():
     """A ring that hardly bends goes down on its foundation by F/(k area/2), per translation."""
     section = plain(0.03, 0.006, 0.02, extent=0.006, line=True)
     stiffness = 1e9
-    ring = reduce_ring(section, STEEL, Held(rigidly=False, foundation=stiffness))
+    ring = reduce_ring(section, STEEL, RingSeat(rigidly=False, foundation=stiffness))
     area = 2.0 * np.pi * 0.036 * 0.02
     expected = 1.0 / (stiffness * area)
     # a foundation alike in all directions carries a translation by all of its area

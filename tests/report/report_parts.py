@@ -13,20 +13,20 @@ from flexcage.cages.window.places import WINDOW_PLACES
 from flexcage.case.presets import load_preset
 from flexcage.contacts.spec import LandSpec
 from flexcage.render.album import Scene, StressPictures
-from flexcage.report.blocks import Table
+from flexcage.report.blocks import PageTable
 from flexcage.report.cage_view import CageStress
 from flexcage.report.comparison import Abscissa, Output
 from flexcage.report.run_page import RunAccount
 from flexcage.report.study_page import StudyAccount
 from flexcage.report.tables import number
-from flexcage.results.figures.part import Part
+from flexcage.results.figures.part import SettledRun
 from flexcage.results.figures.sections import summarise
 from flexcage.results.registry import VARIABLES
-from flexcage.results.row import Row
+from flexcage.results.row import SummaryRow
 from flexcage.results.slip import BearingNumbers
 from flexcage.results.store import RunStore
 from flexcage.results.warnings import warnings_of
-from flexcage.results.warnings_at_end import AT_END, Outcome
+from flexcage.results.warnings_at_end import AT_END, RunOutcome
 
 NUMBERS = BearingNumbers(pitch_diameter=82.5e-3, element_diameter=8e-3, element_count=Z)
 PEAK = 40e6  # Pa, at one vertex of the cage
@@ -110,11 +110,13 @@ def scene(ds, name: str = "small") -> Scene:
 def account(name: str = "small", **changes) -> RunAccount:
     """What a report tells of this run."""
     ds = dataset()
-    summary = summarise(Part(ds, NUMBERS, settle=0.3))
-    summary = summary.with_section("Solver", [Row("steps", "Steps", 1234)])
-    summary = summary.with_section("Equivalent stress", [Row("stress_peak", "Peak", PEAK, "MPa")])
+    summary = summarise(SettledRun(ds, NUMBERS, settle=0.3))
+    summary = summary.with_section("Solver", [SummaryRow("steps", "Steps", 1234)])
+    summary = summary.with_section(
+        "Equivalent stress", [SummaryRow("stress_peak", "Peak", PEAK, "MPa")]
+    )
     duration = float(ds["time"][-1])
-    outcome = Outcome(
+    outcome = RunOutcome(
         summary=summary, dataset=ds, bearing=BEARING, cage=load_preset("N1013").cage,
         land=LandSpec(), duration=duration, settle=0.3,
     )  # fmt: skip
@@ -153,9 +155,9 @@ def study_account(folder, **changes) -> StudyAccount:
     values = {
         "name": "loads", "folder": folder, "status": "3 cases: 2 done, 1 failed, 0 open",
         "varied": ["load: 9 N, 10 N, 100 N."], "base": ["A bearing made for tests."],
-        "statistics": Table(("point", "load [N]", "slip [%]"), rows, "Means"),
-        "cases": Table(("point", "load [N]", "slip [%]"), rows, "All cases"),
-        "audits": Table(("point", "audit"), [["0", "passed"]], "Audit"),
+        "statistics": PageTable(("point", "load [N]", "slip [%]"), rows, "Means"),
+        "cases": PageTable(("point", "load [N]", "slip [%]"), rows, "All cases"),
+        "audits": PageTable(("point", "audit"), [["0", "passed"]], "Audit"),
         "outputs": [Output("slip", "%", slip, np.array([0.05, np.nan, np.nan]))],
         "abscissas": [Abscissa("load [N]", loads, ["", "", ""])], "points": points,
         "failures": ["Point 2 failed: it fell apart."],

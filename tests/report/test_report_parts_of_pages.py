@@ -25,7 +25,7 @@ from report_parts import (
 from flexcage.core.errors import InputError
 from flexcage.render.scene import surface_of
 from flexcage.report import page as page_module
-from flexcage.report.blocks import Cell, Page, Section, Table, Text
+from flexcage.report.blocks import Cell, Page, PageSection, PageTable, Text
 from flexcage.report.cage_view import cage_figure, common_limit, split_at_edges
 from flexcage.report.comparison import (
     MOST_NAMED,
@@ -43,8 +43,8 @@ from flexcage.report.study_page import study_page
 from flexcage.report.tables import filled
 from flexcage.report.thinning import thinned
 from flexcage.report.verdicts import read_verdicts
-from flexcage.results.row import Row
-from flexcage.results.summary import Section as Part
+from flexcage.results.row import SummaryRow
+from flexcage.results.summary import PageSection as Part
 from flexcage.results.summary import Summary
 
 
@@ -264,11 +264,11 @@ def test_what_histories_and_orbit_show_as_pictures_the_page_shows_as_charts():
 
 def test_key_figures_carry_their_margins_or_say_why_not():
     rows = (
-        Row("cage_speed", "Cage speed", 281.6, "rpm", margin=1.26),
-        Row("cage_slip_ratio", "Slip", 0.0074286, "%"),
-        Row("whirl_radius", "Whirl radius", 245.07e-6, "um"),
-        Row("pocket_force_peak", "Peak", 89.001, "N", "pocket 19"),
-        Row("energy_audit", "Audit", "passed", "", "at most 0.1 %"),
+        SummaryRow("cage_speed", "Cage speed", 281.6, "rpm", margin=1.26),
+        SummaryRow("cage_slip_ratio", "Slip", 0.0074286, "%"),
+        SummaryRow("whirl_radius", "Whirl radius", 245.07e-6, "um"),
+        SummaryRow("pocket_force_peak", "Peak", 89.001, "N", "pocket 19"),
+        SummaryRow("energy_audit", "Audit", "passed", "", "at most 0.1 %"),
     )
     page = run_page(account(summary=Summary((Part("All", rows),))))
     tiles = next(s for s in page.sections if s.title == "Key figures").blocks[0].tiles
@@ -282,7 +282,7 @@ def test_key_figures_carry_their_margins_or_say_why_not():
 
 
 def test_a_key_figure_says_of_what_it_is_beside_its_margin():
-    row = Row(
+    row = SummaryRow(
         "pocket_force_mean", "Pocket force, mean", 2.198, "N", "while in contact; more", 0.054
     )
     page = run_page(account(summary=Summary((Part("All", (row,)),))))
@@ -316,14 +316,16 @@ def test_a_page_asks_for_nothing_outside():
 
 
 def test_a_page_without_charts_carries_no_plotly():
-    page = Page("Small", "", [Section("Only", [Text("file", "x = 1")])])
+    page = Page("Small", "", [PageSection("Only", [Text("file", "x = 1")])])
     assert len(html(page)) < 20_000
 
 
 def test_a_page_too_large_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(page_module, "LIMIT", 1000)
     with pytest.raises(InputError, match="more than 0 MB; show fewer pictures"):
-        write_page(Page("Large", "", [Section("A", [Text("b", "c" * 2000)])]), tmp_path / "a.html")
+        write_page(
+            Page("Large", "", [PageSection("A", [Text("b", "c" * 2000)])]), tmp_path / "a.html"
+        )
     assert not list(tmp_path.iterdir())
 
 
@@ -382,6 +384,6 @@ def test_figures_of_a_folder(tmp_path):
 
 
 def test_columns_without_content_are_left_out():
-    table = filled(Table(("a", "b", "c"), [["1", "", "x"], ["2", "", ""]]))
+    table = filled(PageTable(("a", "b", "c"), [["1", "", "x"], ["2", "", ""]]))
     assert list(table.head) == ["a", "c"]
-    assert filled(Table(("a", "b"), [])).head == ("a", "b")
+    assert filled(PageTable(("a", "b"), [])).head == ("a", "b")

@@ -14,7 +14,7 @@ from flexcage.report.comparison import Output
 from flexcage.study.axes import Grid, LatinHypercube, Points, Zip
 from flexcage.study.folder import CaseRow, Failure, Folder
 from flexcage.study.origin import this_one
-from flexcage.study.outputs import Figure
+from flexcage.study.outputs import StudyFigure
 from flexcage.study.page_stress import to_show
 from flexcage.study.page_tables import abscissas, outputs, point_names
 from flexcage.study.plan import make_plan
@@ -37,9 +37,9 @@ def study_folder(
         if k in fails:
             folder.write_failure(planned.hash, Failure("RunFailed", f"case {k} broke", True))
         elif k not in open_:
-            figures = {name: Figure(0.01 + 0.001 * k, "1", "%") for name in outputs}
-            figures |= {"energy_audit": Figure("EXCEEDED" if k == 0 else "passed", "1"),
-                        "steps": Figure(100 + k, "1")}  # fmt: skip
+            figures = {name: StudyFigure(0.01 + 0.001 * k, "1", "%") for name in outputs}
+            figures |= {"energy_audit": StudyFigure("EXCEEDED" if k == 0 else "passed", "1"),
+                        "steps": StudyFigure(100 + k, "1")}  # fmt: skip
             folder.case(planned.hash).mkdir(parents=True)
             values, origin = planned.point.values, this_one()
             row = CaseRow(planned.hash, 1.5, figures, warned(k), values, origin)

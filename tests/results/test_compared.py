@@ -10,9 +10,9 @@ import pytest
 
 from flexcage.core.errors import InputError
 from flexcage.core.warning import RunWarning
-from flexcage.results.compared import FIRST, TEN, Comparison, Pair
+from flexcage.results.compared import FIRST, TEN, ComparedPair, Comparison
 from flexcage.results.figures.table import FIGURES
-from flexcage.results.row import Row
+from flexcage.results.row import SummaryRow
 from flexcage.results.summary import Summary
 
 RPM = pi / 30.0
@@ -24,8 +24,8 @@ def summary_of(scale: float, *, margin: float | None = 1.0, **values: object) ->
     forces = ("pocket_force_mean", "pocket_force_pass_peak", "pocket_force_peak",
               "race_force_inner", "race_force_outer")  # fmt: skip
     rows = [
-        Row("cage_speed", "Cage speed", 280.0 * RPM, "rpm", NOTE, 0.5 * RPM),
-        *(Row(k, FIGURES[k].title, 10.0 * scale, "N", margin=margin) for k in forces),
+        SummaryRow("cage_speed", "Cage speed", 280.0 * RPM, "rpm", NOTE, 0.5 * RPM),
+        *(SummaryRow(k, FIGURES[k].title, 10.0 * scale, "N", margin=margin) for k in forces),
         *(FIGURES[k].row(v) for k, v in values.items()),
     ]
     found = Summary(warnings=(RunWarning("short", f"It is short by {scale:g}."),))
@@ -54,8 +54,8 @@ def compared(**values: object) -> Comparison:
     ],
 )
 def test_a_difference_is_held_against_its_interval(first, second, beyond, ratio):
-    rows = [Row("pocket_force_mean", "Force", v, "N", margin=m) for v, m in (first, second)]
-    pair = Pair("pocket_force_mean", *rows)
+    rows = [SummaryRow("pocket_force_mean", "Force", v, "N", margin=m) for v, m in (first, second)]
+    pair = ComparedPair("pocket_force_mean", *rows)
     assert pair.beyond == beyond
     assert pair.ratio_text == (f"{ratio:.3f}" if ratio else "-")
 

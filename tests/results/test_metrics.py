@@ -10,9 +10,9 @@ from flexcage.bearings.cylindrical_roller import slip as roller_slip
 from flexcage.contacts.spec import EhlTraction, FrictionLaw
 from flexcage.core.errors import InputError
 from flexcage.results import audit, metrics
-from flexcage.results.figures.part import Part
+from flexcage.results.figures.part import SettledRun
 from flexcage.results.figures.sections import summarise
-from flexcage.results.row import Row
+from flexcage.results.row import SummaryRow
 from flexcage.results.slip import SlipRange, cage_speed, element_spin
 from flexcage.results.spectra import amplitude_spectrum
 from flexcage.results.summary import Summary
@@ -28,7 +28,7 @@ def test_cage_speed_and_slip(known_run, bearing):
 
 
 def test_roller_slip_zones_apart(known_run, bearing):
-    summary = summarise(Part(known_run, bearing))
+    summary = summarise(SettledRun(known_run, bearing))
     assert summary["slip_loaded"] == pytest.approx(0.01, abs=1e-6)
     assert summary["slip_unloaded"] == pytest.approx(0.05, abs=1e-6)
     assert summary["loaded_share"] == pytest.approx(3 / 22)
@@ -52,18 +52,18 @@ def test_roller_slip_zones_apart(known_run, bearing):
 def test_the_summary_says_what_loaded_slip_rests_on(known_run, bearing, law, note):
     """Loaded rollers of this run slide at 0.02 m/s."""
     limits = SlipRange(law.creeps_below, law.rises_below)
-    told = summarise(Part(known_run, bearing, slip_range=limits)).row("slip_loaded").note
+    told = summarise(SettledRun(known_run, bearing, slip_range=limits)).row("slip_loaded").note
     assert re.search(note, told), told
 
 
 def test_unloaded_slip_is_noted_by_its_own_sliding(known_run, bearing):
     """Unloaded rollers of this run do not slide on their races; then most do at 0.8 m/s."""
     limits = SlipRange(creep=0.1)
-    summary = summarise(Part(known_run, bearing, slip_range=limits))
+    summary = summarise(SettledRun(known_run, bearing, slip_range=limits))
     assert "unresolved" in summary.row("slip_unloaded").note
     sliding = known_run.copy(deep=True)
     sliding["race_slip"][:, 6:, 1] = -0.8
-    summary = summarise(Part(sliding, bearing, slip_range=limits))
+    summary = summarise(SettledRun(sliding, bearing, slip_range=limits))
     assert summary.row("slip_unloaded").note == ""
     assert "unresolved" in summary.row("slip_loaded").note
 
@@ -73,7 +73,7 @@ def test_unloaded_slip_is_noted_by_its_own_sliding(known_run, bearing):
 def test_a_bearing_that_stands_has_no_slip_ratio_and_no_note(known_run, bearing, speed):
     ds = known_run.copy(deep=True)
     ds["inner_speed"][:] = speed
-    summary = summarise(Part(ds, bearing, slip_range=SlipRange(creep=1.0)))
+    summary = summarise(SettledRun(ds, bearing, slip_range=SlipRange(creep=1.0)))
     for key in ("cage_slip_ratio", "slip_loaded", "slip_unloaded"):
         row = summary.row(key)
         assert row.text == "-" and row.note == "" and row.margin is None
@@ -84,14 +84,14 @@ def test_a_roller_that_turns_backwards_spins_against_rolling(known_run, bearing,
     ds = known_run.copy(deep=True)
     for name in ("inner_speed", "element_omega", "cage_omega"):
         ds[name][:] *= sense
-    rolling = summarise(Part(ds, bearing))
+    rolling = summarise(SettledRun(ds, bearing))
     assert rolling["roller_spin"] == pytest.approx((19 * 0.95 + 3 * 0.99) / 22 * 27937.5 * RPM)
     assert rolling["roller_spin_ideal"] == pytest.approx(27937.5 * RPM)
     ds["element_omega"][:, 8, 0] *= -1.0
     spin = element_spin(ds)
     assert float(spin.max("time")[8]) == pytest.approx(-0.95 * 27937.5 * RPM)
     assert float(spin.isel(element=7).min()) > 0.0
-    assert summarise(Part(ds, bearing))["roller_spin"] < rolling["roller_spin"]
+    assert summarise(SettledRun(ds, bearing))["roller_spin"] < rolling["roller_spin"]
 
 
 def test_a_family_that_is_not_known_is_not_taken_for_rollers(known_run):
@@ -171,7 +171,7 @@ def test_energy_audit_of_the_cage(known_run, bearing, leak, of_drive, of_cage, v
     assert check.of_drive == pytest.approx(of_drive, abs=1e-12)
     assert check.of_cage == pytest.approx((1.0 - audit.BEGUN) * of_cage, abs=1e-12)
     assert check.passed == (verdict == "passed")
-    assert summarise(Part(ds, bearing))["energy_audit"] == verdict
+    assert summarise(SettledRun(ds, bearing))["energy_audit"] == verdict
 
 
 def test_what_a_cage_loses_at_its_lands_is_of_the_cage(known_run):
@@ -228,7 +228,7 @@ def test_a_cage_that_hardly_loses_anything_is_no_measure(
     ds["work"][:, 0], ds["work"][:, 1] = 0.5 * share, -lost * share
     ds["energy"][:, 0] = ds["work"].sum("channel").values + leak * share
     ds["energy"][:, 1] = 0.0
-    check, row = audit.energy_audit(ds), summarise(Part(ds, bearing)).row("energy_of_cage")
+    check, row = audit.energy_audit(ds), summarise(SettledRun(ds, bearing)).row("energy_of_cage")
     assert check.verdict == verdict and np.isfinite(check.of_cage) == judged
     assert ("too little" in row.note) == (not judged)
 
@@ -254,7 +254,7 @@ def test_too_little_work_is_no_leak(known_run, bearing, work, lost, leak, verdic
     ds["work"][:, 0], ds["work"][:, 1] = work * share, -lost * share
     ds["energy"][:, 0] = ds["work"].sum("channel").values + leak * share
     ds["energy"][:, 1] = 1e-4
-    summary = summarise(Part(ds, bearing))
+    summary = summarise(SettledRun(ds, bearing))
     assert summary["energy_audit"] == verdict
     assert summary["energy_elastic"] == pytest.approx(1e-4)
     assert ("too little work" in summary.row("energy_audit").note) == (verdict == "not judged")
@@ -287,14 +287,16 @@ def test_velocity_deviation_of_a_pulsing_circle(known_run):
 
 
 def test_rounding_is_shown_as_nothing():
-    texts = [Row("a", "A", v, "mrad").text for v in (7e-25, -7e-25, 2e-9)]
+    texts = [SummaryRow("a", "A", v, "mrad").text for v in (7e-25, -7e-25, 2e-9)]
     assert texts == ["0", "0", "2.000e-06"]
-    assert Row("b", "B", 1e-20, "1/h").text == "3.600e-17"  # a small damage is one
+    assert SummaryRow("b", "B", 1e-20, "1/h").text == "3.600e-17"  # a small damage is one
 
 
 def test_summary_prints_and_comes_back(known_run, bearing, tmp_path):
-    summary = summarise(Part(known_run, bearing, slip_range=SlipRange(creep=0.05))).with_section(
-        "Solver", [Row("steps", "Steps", 12345), Row("wall", "Wall time", 1.5, "s")]
+    summary = summarise(
+        SettledRun(known_run, bearing, slip_range=SlipRange(creep=0.05))
+    ).with_section(
+        "Solver", [SummaryRow("steps", "Steps", 12345), SummaryRow("wall", "Wall time", 1.5, "s")]
     )
     text = summary.text()
     assert "unresolved" in text and "12,345" in text and re.search(r" 2,709\.1 +rpm", text)
@@ -344,8 +346,8 @@ def test_summary_sees_a_run_that_has_not_settled(known_run, bearing):
     ds = known_run.copy(deep=True)
     ds["cage_omega"][:, 0] *= np.linspace(1.0, 1.1, ds.sizes["time"])
     ds["pocket_force"][:, 7, 1] = 3.0
-    assert summarise(Part(ds, bearing))["drift"] == "cage speed"
+    assert summarise(SettledRun(ds, bearing))["drift"] == "cage speed"
     ds = ds.assign(cage_omega=known_run["cage_omega"])
-    assert summarise(Part(ds, bearing))["drift"] == "none"
-    short = summarise(Part(ds.isel(time=slice(500)), bearing))
+    assert summarise(SettledRun(ds, bearing))["drift"] == "none"
+    short = summarise(SettledRun(ds.isel(time=slice(500)), bearing))
     assert short["drift"] is None and short.row("cage_speed").margin is None

@@ -15,7 +15,7 @@ from flexcage.core.errors import InputError
 from flexcage.results.compared import Comparison
 from flexcage.results.figures.figure import Found
 from flexcage.results.figures.own import OUTPUTS, SECTION, own_warnings, with_own
-from flexcage.results.figures.part import Part
+from flexcage.results.figures.part import SettledRun
 from flexcage.results.figures.sections import summarise
 from flexcage.results.figures.table import FIGURES, listing, marked
 from flexcage.results.summary import Summary
@@ -61,7 +61,7 @@ def add(key="my_number", take=lambda part: 1.0, **values):
 
 def test_they_stand_in_a_summary_like_others(known_run, bearing):
     load_extension(MINE)
-    summary = summarise(Part(known_run, bearing))
+    summary = summarise(SettledRun(known_run, bearing))
     section = summary.sections[-1]
     assert section.title == SECTION
     assert [row.key for row in section.rows] == ["my_axial_play", "my_loaded"]
@@ -86,7 +86,7 @@ def test_they_are_listed_and_compared(known_run, bearing):
         "Cage, motion along the axis: largest less least place of its centre; needs a cage",
     )
     assert rows["my_loaded"][2].endswith("number at an instant; with an interval")
-    summary = summarise(Part(known_run, bearing))
+    summary = summarise(SettledRun(known_run, bearing))
     found = Comparison({"a": summary, "b": summary})
     assert found["my_loaded"].ratio == 1.0 and found["my_loaded"].beyond == "no"
 
@@ -94,7 +94,7 @@ def test_they_are_listed_and_compared(known_run, bearing):
 def test_what_a_run_does_not_have_is_left_out(known_run, bearing):
     add(take=lambda part: None)
     add("my_gap", title="Gap", marks="full complement")
-    summary = summarise(Part(known_run, bearing))
+    summary = summarise(SettledRun(known_run, bearing))
     assert summary.row("my_number").text == "-" and "my_gap" not in summary
     assert own_warnings(summary) == ()
 
@@ -116,14 +116,14 @@ def test_what_a_run_does_not_have_is_left_out(known_run, bearing):
 )
 def test_a_function_that_fails_is_a_warning_and_the_run_goes_on(known_run, bearing, take, words):
     add(take=take)
-    summary = summarise(Part(known_run, bearing))
+    summary = summarise(SettledRun(known_run, bearing))
     assert summary["my_number"] is None and summary["cage_speed"] is not None
     [warning] = own_warnings(summary)
     assert warning.text.startswith("The figure 'my_number' of your own has no value: ")
     assert re.search(words, warning.text), warning.text
     FIGURES._added.clear()  # mended
     add(take=lambda part: Found(2e-3, "a note"))
-    mended = with_own(summary.with_warnings([warning]), lambda: Part(known_run, bearing))
+    mended = with_own(summary.with_warnings([warning]), lambda: SettledRun(known_run, bearing))
     assert mended["my_number"] == 2e-3 and mended.row("my_number").note == "a note"
     assert mended.warnings == () and sum(s.title == SECTION for s in mended.sections) == 1
 
@@ -163,7 +163,7 @@ def test_names_of_figures_and_of_outputs_are_apart():
 
 def test_braces_in_a_title_are_text(known_run, bearing):
     add(title="Force {N}")
-    assert summarise(Part(known_run, bearing)).row("my_number").label == "Force {N}"
+    assert summarise(SettledRun(known_run, bearing)).row("my_number").label == "Force {N}"
 
 
 def test_studies_check_them_like_others():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from flexcage.results.figures.part import Part
+from flexcage.results.figures.part import SettledRun
 from flexcage.results.figures.sections import summarise
 
 
@@ -14,7 +14,7 @@ def test_drive_place_and_reactions_of_a_known_motion(known_run, bearing):
     ds["inner_quaternion"][:] = [np.cos(0.25e-3), 0.0, 0.0, np.sin(0.25e-3)]  # 0.5 mrad about z
     ds["multiplier"].loc[{"constraint": "axial_force"}] = -200.0
     ds["multiplier"].loc[{"constraint": "moment_y"}] = 1e-6  # rounding
-    summary = summarise(Part(ds, bearing))
+    summary = summarise(SettledRun(ds, bearing))
     assert summary["drive_power"] == pytest.approx(5.0)  # 5 J a second
     assert summary["drive_torque"] == pytest.approx(5.0 / (6000 * np.pi / 30))
     assert summary["inner_displacement"] == pytest.approx(5e-6)
@@ -29,5 +29,5 @@ def test_drive_place_and_reactions_of_a_known_motion(known_run, bearing):
 def test_a_standing_ring_has_no_torque(known_run, bearing):
     ds = known_run.copy(deep=True)
     ds["inner_speed"][:] = 0.0
-    summary = summarise(Part(ds, bearing))
+    summary = summarise(SettledRun(ds, bearing))
     assert summary["drive_power"] == pytest.approx(5.0) and summary["drive_torque"] is None

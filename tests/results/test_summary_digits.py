@@ -2,7 +2,7 @@
 
 import pytest
 
-from flexcage.results.row import Row, format_value
+from flexcage.results.row import SummaryRow, format_value
 from flexcage.results.summary import Section, Summary
 
 
@@ -24,17 +24,17 @@ def test_a_value_in_its_unit(value, shown, margin, texts):
 
 
 def test_a_row_and_tables_agree():
-    row = Row("pocket_force_mean", "Pocket force", 86.09, "N", margin=221.0)
+    row = SummaryRow("pocket_force_mean", "Pocket force", 86.09, "N", margin=221.0)
     assert (row.text, row.margin_text, row.full_text) == ("90", "± 220", "90 ± 220 N")
     summary = Summary((Section("Forces", (row,)),))
     assert "90 ± 220 N" in summary.text()
-    assert Row("a", "a", "nothing").full_text == "nothing"
+    assert SummaryRow("a", "a", "nothing").full_text == "nothing"
 
 
 def test_words_stand_in_no_column():
     """A sentence as a value does not push the figures to the right."""
     words = "free across the axis; held along the axis and in tilt"
-    rows = [Row("speed", "Speed", 100.0, "m/s"), Row("held", "Ring", words)]
+    rows = [SummaryRow("speed", "Speed", 100.0, "m/s"), SummaryRow("held", "Ring", words)]
     lines = Summary((Section("Both", tuple(rows)),)).text().splitlines()
     assert lines[2].index("Ring") == 2 and lines[2].endswith(f"  {words}")
     assert len(lines[1]) < 30

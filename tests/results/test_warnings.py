@@ -15,10 +15,10 @@ from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.basis import BodyFit
 from flexcage.results.edges import Edge
 from flexcage.results.elastic import ElasticShape
-from flexcage.results.row import Row
+from flexcage.results.row import SummaryRow
 from flexcage.results.summary import Section, Summary
 from flexcage.results.warnings import from_attrs, to_text, warnings_of
-from flexcage.results.warnings_at_end import AT_END, Outcome
+from flexcage.results.warnings_at_end import AT_END, RunOutcome
 from flexcage.results.warnings_at_start import AT_START, Setup, of_statics
 
 N1013, BALL, RIBBON = (load_preset(name) for name in ("N1013", "7010C-PA66", "15x37x10"))
@@ -56,9 +56,9 @@ def motion(radius, *, turns=4.0, tilt=0.0, duration=0.1):
 
 
 def end(preset=N1013, radius=None, notes="", land=None, run=None, **figures):
-    rows = tuple(Row(k, k, v, "", notes) for k, v in (FIGURES | figures).items())
+    rows = tuple(SummaryRow(k, k, v, "", notes) for k, v in (FIGURES | figures).items())
     steady = np.full(500, 50e-6) if radius is None else radius
-    outcome = Outcome(
+    outcome = RunOutcome(
         summary=Summary((Section("All", rows),)),
         dataset=run or motion(steady),
         bearing=preset.bearing,
@@ -274,7 +274,7 @@ def test_pockets_that_guide_nothing():
 
 def test_warnings_are_kept_with_the_figures(tmp_path):
     told = (RunWarning("not_settled", "It has not settled."),)
-    row = Row("cage_speed", "Cage speed", 280.0, "rpm")
+    row = SummaryRow("cage_speed", "Cage speed", 280.0, "rpm")
     summary = Summary((Section("Speeds", (row,)),), told)
     text, data = summary.write(tmp_path)
     lines = text.read_text("utf-8").splitlines()

@@ -8,7 +8,7 @@ import flexcage
 from flexcage.core.warning import RunWarning
 from flexcage.results.figures.figure import BRIEF
 from flexcage.results.figures.table import marked
-from flexcage.results.row import Row
+from flexcage.results.row import SummaryRow
 from flexcage.results.summary import Section, Summary
 
 
@@ -60,8 +60,8 @@ def test_a_run_shows_warnings_and_the_figures_that_matter(case):
 
 def test_a_summary_is_short_in_a_terminal_and_whole_in_a_notebook():
     rows = (
-        Row("cage_speed", "Cage speed", 283.6, "rpm", "mean; of all", margin=10.0),
-        Row("none", "None", 0.0, "N", idle=True),
+        SummaryRow("cage_speed", "Cage speed", 283.6, "rpm", "mean; of all", margin=10.0),
+        SummaryRow("none", "None", 0.0, "N", idle=True),
     )
     summary = Summary((Section("Speeds & more", rows),), (RunWarning("short", "Too <short>."),))
     assert repr(summary) == "Summary(2 figures in 1 sections, warnings: 1)"

@@ -13,7 +13,7 @@ from flexcage.mesh.series import new_folder
 from flexcage.modes.door.formats import read_body, write_body
 from flexcage.report.page import write_page
 from flexcage.results import export
-from flexcage.results.row import Row
+from flexcage.results.row import SummaryRow
 from flexcage.results.summary import Section, Summary
 from flexcage.run.run import Run
 from flexcage.study import compare
@@ -57,7 +57,7 @@ def test_a_home_folder_is_found(tmp_path, monkeypatch, entrance):
 
 
 def test_a_figure_is_named_by_text():
-    summary = Summary((Section("Speeds", (Row("cage_speed", "Cage speed", 1.0),)),))
+    summary = Summary((Section("Speeds", (SummaryRow("cage_speed", "Cage speed", 1.0),)),))
     with pytest.raises(KeyError, match="has no figure '3'"):
         summary[3]
 

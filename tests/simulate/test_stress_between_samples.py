@@ -8,7 +8,7 @@ from simulate_cases import bent, n1013
 
 from flexcage.results.store import SIDE
 from flexcage.simulate import load_run, simulate
-from flexcage.stress.between import Between
+from flexcage.stress.between import StoredSteps
 
 RATE = 50e3
 BLOCK = 250 / RATE  # [s]
@@ -92,7 +92,7 @@ def test_forces_at_steps_are_those_of_the_peaks(run):
     """``pocket_peak`` is found by other code: from steps less than 2 us apart too, and from the
     parabola through three of them."""
     ds = run.dataset
-    steps = Between(run.store, ds["time"].values, inner=True)(0, ds.sizes["time"])
+    steps = StoredSteps(run.store, ds["time"].values, inner=True)(0, ds.sizes["time"])
     assert len(steps) > 500 and np.diff(steps.time).min() > 0.099 / RATE
     normal = np.zeros((ds.sizes["time"], 22, 2))
     at_step = np.stack([steps.stations[..., face, :, 2].sum(-1) * sign

@@ -6,7 +6,7 @@ from stress_cage import POCKETS
 
 from flexcage.results.layout import make_layout
 from flexcage.results.store import LOADS, MemoryRunStore
-from flexcage.stress.between import Between, Loads, no_steps, together
+from flexcage.stress.between import Loads, StoredSteps, no_steps, together
 from flexcage.stress.fields import StressFields, TensorFields
 from flexcage.stress.history import histories_at, stress_history
 
@@ -133,7 +133,7 @@ def store():
 
 
 def test_steps_are_read_across_blocks(store):
-    found = Between(store, T, inner=True)(0, SAMPLES)
+    found = StoredSteps(store, T, inner=True)(0, SAMPLES)
     np.testing.assert_array_equal(found.sample, [0, 2, 3, 5])
     np.testing.assert_array_equal(found.time, [0.4e-3, 2.2e-3, 3.5e-3, 5.1e-3])
     np.testing.assert_array_equal(found.modes[:, 0], [0.0, 4.0, 0.0, 2.0])
@@ -143,15 +143,15 @@ def test_steps_are_read_across_blocks(store):
         expected[step, pocket, face, 3, 2] = force
     np.testing.assert_array_equal(found.stations, expected)
     assert (found.lands[:2, 0, :, 1:] == 2.0).all() and not found.lands[:, 1].any()
-    outer = Between(store, T, inner=False)(0, 3).lands
+    outer = StoredSteps(store, T, inner=False)(0, 3).lands
     assert (outer[:, 1, :, 1:] == 2.0).all() and not outer[:, 0].any()
 
 
 @pytest.mark.parametrize(("first", "end", "samples"), [(2, 4, [2, 3]), (1, 2, []), (4, 6, [5])])
 def test_steps_of_some_samples(store, first, end, samples):
-    found = Between(store, T, inner=True)(first, end)
+    found = StoredSteps(store, T, inner=True)(first, end)
     assert ([] if found is None else list(found.sample)) == samples
-    since = Between(store, T, inner=True).since(1)(first - 1, end - 1)
+    since = StoredSteps(store, T, inner=True).since(1)(first - 1, end - 1)
     assert ([] if since is None else list(since.sample + 1)) == samples
 
 
@@ -159,7 +159,7 @@ def test_steps_of_some_samples(store, first, end, samples):
     ("time", "sample", "nearest"), [(2.4e-3, 1, 2.2e-3), (2.9e-3, 2, 3.5e-3), (5.9e-3, 5, 5.1e-3)]
 )
 def test_the_nearest_step(store, time, sample, nearest):
-    assert Between(store, T, inner=True).nearest(time, sample).time == [nearest]
+    assert StoredSteps(store, T, inner=True).nearest(time, sample).time == [nearest]
 
 
 def test_a_run_without_steps(store):
@@ -167,5 +167,5 @@ def test_a_run_without_steps(store):
     plain = MemoryRunStore(store.layout)
     for k in range(2):
         plain.write_block(k, {"pocket_force": np.zeros((3, 4, 4))})
-    assert Between(plain, T, inner=True)(0, SAMPLES) is None and no_steps(0, 1) is None
-    assert Between(plain, T, inner=True).nearest(1e-3, 0) is None
+    assert StoredSteps(plain, T, inner=True)(0, SAMPLES) is None and no_steps(0, 1) is None
+    assert StoredSteps(plain, T, inner=True).nearest(1e-3, 0) is None

@@ -8,7 +8,7 @@ from flexcage.case import Case, load_case
 from flexcage.study.about import plain
 from flexcage.study.folder import CaseRow
 from flexcage.study.origin import this_one
-from flexcage.study.outputs import Figure
+from flexcage.study.outputs import StudyFigure
 from flexcage.study.plan import Planned
 from flexcage.study.spec import Study
 
@@ -31,7 +31,7 @@ def short_study(*axes: object, outputs=("cage_speed",), duration="0.2 ms", **res
     return Study(case=case, axes=axes, outputs=outputs, **rest)
 
 
-def row_of(planned: Planned, figures: dict[str, Figure], warnings=()) -> CaseRow:
+def row_of(planned: Planned, figures: dict[str, StudyFigure], warnings=()) -> CaseRow:
     """The row of a finished case as this flexcage writes it."""
     values = plain(planned.point.values)
     return CaseRow(planned.hash, 1.0, figures, warnings, values, this_one())

@@ -9,7 +9,7 @@ import pytest
 
 from flexcage.case import Case
 from flexcage.core.errors import InputError
-from flexcage.results.row import Row
+from flexcage.results.row import SummaryRow
 from flexcage.results.summary import Section, Summary
 from flexcage.study.compare import compare, compare_runs, short_names
 
@@ -28,7 +28,7 @@ def test_folders_are_named_without_what_both_lie_in(folders, names):
 
 
 def stand_in(case: Case, force: float) -> SimpleNamespace:
-    row = Row("pocket_force_mean", "Pocket force, mean", force, "N", margin=1.0)
+    row = SummaryRow("pocket_force_mean", "Pocket force, mean", force, "N", margin=1.0)
     return SimpleNamespace(summary=Summary((Section("Forces", (row,)),)), case=case, dataset=None)
 
 

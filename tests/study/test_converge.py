@@ -12,7 +12,7 @@ from flexcage.case import load_case
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.core.warning import RunWarning
 from flexcage.results.figures.table import FIGURES
-from flexcage.results.row import Row
+from flexcage.results.row import SummaryRow
 from flexcage.results.statistics import Record
 from flexcage.results.summary import Section, Summary
 from flexcage.simulate import simulate
@@ -39,10 +39,10 @@ class FakeRun:
         frequency = {"coarse": 869.1, "medium": 860.6}.get(case.mesh.fineness, 858.5)
         rows = (
             FIGURES["cage_speed"].row(Record(np.stack([speed, np.ones(80)], 1))),
-            Row("pocket_force_mean", "Pocket force, mean", force, "N", "", 0.02),
-            Row("whirl_radius", "Whirl radius, mean", 40e-6, "um", "", 8e-6),
-            Row("slip_loaded", "Loaded zone, slip ratio", 0.01, "%"),
-            Row("first_frequency", "First frequency", frequency, "Hz"),
+            SummaryRow("pocket_force_mean", "Pocket force, mean", force, "N", "", 0.02),
+            SummaryRow("whirl_radius", "Whirl radius, mean", 40e-6, "um", "", 8e-6),
+            SummaryRow("slip_loaded", "Loaded zone, slip ratio", 0.01, "%"),
+            SummaryRow("first_frequency", "First frequency", frequency, "Hz"),
         )
         high = case.mesh.fineness == "fine" or case.modes.count == 48
         warned = (RunWarning("stress_above_proof", f"{case.modes.count} modes"),) if high else ()

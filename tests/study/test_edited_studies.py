@@ -20,7 +20,7 @@ from flexcage.study.axes import Grid
 from flexcage.study.folder import CaseRow, Folder
 from flexcage.study.maps import Map, MapResults
 from flexcage.study.origin import Origin, this_one
-from flexcage.study.outputs import Figure
+from flexcage.study.outputs import StudyFigure
 from flexcage.study.plan import make_plan
 from flexcage.study.results import StudyResults
 from flexcage.study.samples import samples_of
@@ -39,7 +39,7 @@ def write_rows(folder, plan, origin=HERE):
         part = folder.case(planned.hash)
         part.mkdir(exist_ok=True)
         (part / "case.toml").write_text(case.to_toml())
-        figures = {"cage_speed": Figure(case.load.radial / 10.0, "rad/s", "rpm")}
+        figures = {"cage_speed": StudyFigure(case.load.radial / 10.0, "rad/s", "rpm")}
         values = plain(planned.point.values)
         folder.write_row(part, CaseRow(planned.hash, 1.0, figures, (), values, origin))
 
@@ -155,7 +155,7 @@ def test_rows_of_different_versions_are_told_apart(done, tmp_path):
     plan = make_plan(short_study(Grid("load.radial", ["500 N", "1 kN"])))
     done.prepare(plan)
     case = done.about()[1][0]
-    figures = {"cage_speed": Figure(50.0, "rad/s", "rpm")}
+    figures = {"cage_speed": StudyFigure(50.0, "rad/s", "rpm")}
     other = CaseRow(case.hash, 1.0, figures, (), plain(case.point.values), Origin("0.0.9", "a" * 8))
     done.write_row(done.case(case.hash), other)
     results = StudyResults(done.path)

@@ -10,7 +10,7 @@ from flexcage.case import extensions
 from flexcage.core.errors import InputError
 from flexcage.study.axes import Grid
 from flexcage.study.folder import Folder
-from flexcage.study.outputs import Figure
+from flexcage.study.outputs import StudyFigure
 from flexcage.study.plan import make_plan
 from flexcage.study.results import StudyResults
 from flexcage.study.spec import Study
@@ -31,7 +31,7 @@ def folder(tmp_path, monkeypatch):
     out.prepare(plan)
     for k, planned in enumerate(plan.cases):
         out.case(planned.hash).mkdir()
-        figures = {"cage_speed": Figure(100.0 + k, "rad/s", "rpm")}
+        figures = {"cage_speed": StudyFigure(100.0 + k, "rad/s", "rpm")}
         out.write_row(out.case(planned.hash), row_of(planned, figures))
     return out
 

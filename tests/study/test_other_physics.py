@@ -17,7 +17,7 @@ from flexcage.study.axes import Grid
 from flexcage.study.folder import CaseRow, Folder
 from flexcage.study.maps import Map
 from flexcage.study.origin import Origin, this_one
-from flexcage.study.outputs import Figure
+from flexcage.study.outputs import StudyFigure
 from flexcage.study.plan import make_plan
 from flexcage.study.results import StudyResults
 from flexcage.study.spec import load_study
@@ -31,7 +31,7 @@ OTHER = Origin(this_one().version, "a" * 16)
 def write_row(folder, planned, origin):
     part = folder.case(planned.hash)
     part.mkdir()
-    figures = {"cage_speed": Figure(50.0, "rad/s", "rpm")}
+    figures = {"cage_speed": StudyFigure(50.0, "rad/s", "rpm")}
     folder.write_row(
         part, CaseRow(planned.hash, 1.0, figures, (), plain(planned.point.values), origin)
     )

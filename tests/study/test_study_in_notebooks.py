@@ -7,7 +7,7 @@ from study_cases import row_of, short_study
 from flexcage.core.warning import RunWarning
 from flexcage.study import Grid, StudyResults
 from flexcage.study.folder import Folder
-from flexcage.study.outputs import Figure
+from flexcage.study.outputs import StudyFigure
 from flexcage.study.plan import make_plan
 
 
@@ -18,7 +18,7 @@ def stored(folder, loads):
     out.prepare(plan)
     for k, planned in enumerate(plan.cases[:-1]):
         out.case(planned.hash).mkdir()
-        figures = {"cage_speed": Figure(100.0 + k, "rad/s", "rpm")}
+        figures = {"cage_speed": StudyFigure(100.0 + k, "rad/s", "rpm")}
         warnings = (RunWarning("short", "Too <short>."),) if k == 0 else ()
         out.write_row(out.case(planned.hash), row_of(planned, figures, warnings))
     return StudyResults(folder)

@@ -11,7 +11,7 @@ from flexcage.core.hashing import sealed
 from flexcage.study.axes import Grid
 from flexcage.study.folder import Folder
 from flexcage.study.maps import Map
-from flexcage.study.outputs import Figure
+from flexcage.study.outputs import StudyFigure
 from flexcage.study.plan import make_plan
 from flexcage.study.results import StudyResults
 from flexcage.study.unknowns import Unknown
@@ -46,7 +46,7 @@ def done(tmp_path):
     folder.prepare(plan)
     for planned in plan.cases:
         folder.case(planned.hash).mkdir()
-        row = row_of(planned, {"cage_speed": Figure(1.0, "rad/s", "rpm")})
+        row = row_of(planned, {"cage_speed": StudyFigure(1.0, "rad/s", "rpm")})
         folder.write_row(folder.case(planned.hash), row)
     victim = tmp_path / "victim"
     victim.write_text("mine")

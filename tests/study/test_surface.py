@@ -9,7 +9,7 @@ from flexcage.core.errors import InputError
 from flexcage.study.axes import Grid, Points, Zip
 from flexcage.study.decide import FLAT, POWER, needed
 from flexcage.study.folder import Folder
-from flexcage.study.outputs import Figure
+from flexcage.study.outputs import StudyFigure
 from flexcage.study.plan import make_plan
 from flexcage.study.quadratic import fit_quadratic, terms
 from flexcage.study.results import StudyResults
@@ -164,8 +164,8 @@ def finished(folder, *axes):
         speed, load = case.drive.speed / 628.3, case.load.radial / 1e3
         value = 5.0 + 20.0 * (speed - 1.0) ** 2 + (load - 1.2) ** 2 + rng.normal(0.0, 0.01)
         figures = {
-            "cage_speed": Figure(value, "rad/s", "rpm"),
-            "pocket_force_mean": Figure(value, "N", "N", 0.02),
+            "cage_speed": StudyFigure(value, "rad/s", "rpm"),
+            "pocket_force_mean": StudyFigure(value, "N", "N", 0.02),
         }
         out.case(planned.hash).mkdir()
         out.write_row(out.case(planned.hash), row_of(planned, figures))

@@ -12,7 +12,7 @@ from flexcage.study.verdicts import (
     HOLDS,
     UNDECIDED,
     Estimate,
-    Line,
+    EvidenceLine,
     Verdict,
     above,
     every,
@@ -126,9 +126,11 @@ def test_pooled_intervals_hold_the_mean_as_often_as_they_say():
 
 def test_verdicts_on_disk(tmp_path):
     verdicts = [
-        Verdict(key="1", claim="more < less", outcome=HOLDS, figures=(Line("a", 1.5, 0.1, "N"),)),
-        Verdict(key="2", claim="open", outcome=UNDECIDED, figures=(Line("b", nan, nan, "MPa"),),
-                range="none", reason="not computed", source="paper"),
+        Verdict(key="1", claim="more < less", outcome=HOLDS,
+                figures=(EvidenceLine("a", 1.5, 0.1, "N"),)),
+        Verdict(key="2", claim="open", outcome=UNDECIDED,
+                figures=(EvidenceLine("b", nan, nan, "MPa"),), range="none",
+                reason="not computed", source="paper"),
     ]  # fmt: skip
     path = write_verdicts(tmp_path, verdicts)
     stored = json.loads(path.read_text())

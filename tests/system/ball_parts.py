@@ -14,7 +14,7 @@ from flexcage.cages.round_pocket.interface import BallCageInterface, wall_statio
 from flexcage.case.presets import load_preset
 from flexcage.contacts.spec import Contacts, FrictionLaw, Lubricant, NormalLaw, PairSpec
 from flexcage.system.layout import Layout, bodies_of_bearing
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 from flexcage.system.spec import Drive, Load, Mount
 
 PITCH, LAND = 32.5e-3, 24
@@ -65,7 +65,7 @@ def ball_bearing(
     *, contacts=None, load=None, speed=0.0, mount=None, lubricant=DRY, modes=6, change=None,
     shape="cylindrical", shoulders=None,
 ):  # fmt: skip
-    """A ``Bearing`` of the preset 7010C-PI; ``change(interface)`` alters the cage's walls,
+    """A ``BearingSystem`` of the preset 7010C-PI; ``change(interface)`` alters the cage's walls,
     ``shoulders`` [m] the gaps that the rings' shoulders leave the cage."""
     preset = load_preset("7010C-PI")
     cage, spec = replace(preset.cage, pocket_shape=shape), preset.bearing
@@ -83,7 +83,7 @@ def ball_bearing(
         mount=mount or Mount(),
     )  # fmt: skip
     layout = Layout(preset.bearing.ball_count, bodies_of_bearing(body.modes))
-    return Bearing(MOTION, spec, model, contacts, layout)
+    return BearingSystem(MOTION, spec, model, contacts, layout)
 
 
 def pressed(bearing, *, seed=0, push=0.28e-3):

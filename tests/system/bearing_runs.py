@@ -15,7 +15,7 @@ from flexcage.solve.integrators import INTEGRATORS
 from flexcage.system.constraints import names_of
 from flexcage.system.data import POWERS
 from flexcage.system.layout import Layout, bodies_of_bearing
-from flexcage.system.problem import Bearing, new_samples
+from flexcage.system.problem import BearingSystem, new_samples
 from flexcage.system.scales import work_weights
 from flexcage.system.spec import Drive, Load, Mount
 
@@ -54,11 +54,11 @@ def wrenches(bearing, y):
     return force, in_space(own[:, 3:]) + np.cross(place, force)
 
 
-def assembled(model, contacts, constraints=()) -> Bearing:
+def assembled(model, contacts, constraints=()) -> BearingSystem:
     held = names_of(constraints)
     bodies = bodies_of_bearing(model.cage.mff.shape[0])
     layout = Layout(len(model.bodies.radius), bodies, held)
-    return Bearing(MOTION, N1013, model, contacts, layout, constraints=constraints)
+    return BearingSystem(MOTION, N1013, model, contacts, layout, constraints=constraints)
 
 
 def rolling_start(bearing):
@@ -105,9 +105,9 @@ def march(bearing, y0, yd0, *, duration, rate=100e3, tolerance=1e-8, max_order=2
         modes=bearing.modes,
     )
     if method == "bdf":
-        options = bdf.Options(max_order, h_max, 1e-14, 0.3, 10**9)
+        options = bdf.BDFOptions(max_order, h_max, 1e-14, 0.3, 10**9)
     else:
-        options = runge_kutta.Options(h_max, 1e-14, 10**9)
+        options = runge_kutta.RungeKuttaOptions(h_max, 1e-14, 10**9)
     ys, yds = np.zeros((n, layout.size)), np.zeros((n, layout.size))
     log = np.zeros((400_000, 5))
     outcome, done, rows = bearing.advance(

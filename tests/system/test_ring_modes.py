@@ -13,7 +13,7 @@ from flexcage.case import Case
 from flexcage.core.errors import InputError
 from flexcage.geometry.materials import MATERIALS
 from flexcage.geometry.ring import OuterRing, Raceway, RingSection
-from flexcage.modes.ring import Held, reduce_ring
+from flexcage.modes.ring import RingSeat, reduce_ring
 from flexcage.stages import assembled_start, bearing_in_motion, cage_mesh
 from flexcage.static import solve_static
 from flexcage.stress.rings import ring_field
@@ -93,7 +93,7 @@ def thin_ring():
     outline = ((-half, low + side), (-half, low), (half, low), (half, low + side))
     race = Raceway(place=(0.0, low), normal=(0.0, 1.0), extent=half, line=True)
     section = RingSection(outline, ("", "race", "", "seat"), race, side)
-    return reduce_ring(section, STEEL, Held(rigidly=False))
+    return reduce_ring(section, STEEL, RingSeat(rigidly=False))
 
 
 def test_modes_of_a_thin_ring_are_those_in_closed_form():

@@ -9,7 +9,7 @@ from free_motion import momentum_by_nodes
 from scipy.spatial.transform import Rotation
 
 from flexcage.modes.reduction import CageReduction
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 from flexcage.verification import Tolerance
 
 TURNED = Tolerance(
@@ -17,7 +17,7 @@ TURNED = Tolerance(
 )
 
 
-def of_rigid_cage(bearing: Bearing, ds: Any) -> tuple[np.ndarray, np.ndarray]:
+def of_rigid_cage(bearing: BearingSystem, ds: Any) -> tuple[np.ndarray, np.ndarray]:
     """Momentum across the axis (time, 2) [kg m/s] and angular momentum about it (time,) of a rigid
     cage."""
     cage = bearing.data.model.cage

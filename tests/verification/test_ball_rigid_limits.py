@@ -12,7 +12,7 @@ from flexcage.cages.build import rigid_interface_of
 from flexcage.simulate import simulate
 from flexcage.stages import cage_mesh, cage_reduction
 from flexcage.system.layout import Layout, bodies_of_bearing
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 from flexcage.verification.runs import c7010
 
 THROWN = {  # against balls of different load; trajectories part soon after
@@ -77,7 +77,7 @@ def frozen_and_rigid():
     def bearing(body, interface):
         model = MOTION.build_model(case.bearing, case.cage, body, interface, **specs)
         layout = Layout(18, bodies_of_bearing(body.modes))
-        bearing = Bearing(MOTION, case.bearing, model, case.contacts, layout)
+        bearing = BearingSystem(MOTION, case.bearing, model, case.contacts, layout)
         for speeds in bearing.data.memory[:4]:
             speeds[...] = 0.3  # at which contacts closed
         return bearing

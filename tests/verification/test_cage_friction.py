@@ -31,7 +31,7 @@ from flexcage.compiling import build_bearing
 from flexcage.contacts import laws
 from flexcage.contacts.spec import FrictionLaw
 from flexcage.stages import cage_mesh
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 from flexcage.verification import Row, Tolerance
 from flexcage.verification.bearings import RPM, deep_groove
 from flexcage.verification.runs import ELASTIC, NO_OIL, in_a_cage
@@ -59,7 +59,7 @@ GRID = Tolerance(1e-3, "searched on a grid: both printed ones lie 0.0009 above t
 EXCESS = Tolerance(5e-3, "the same, in a difference of two nearly equal effects")
 
 
-def bearing_with(resistance: float, density: float) -> tuple[Case, Bearing]:
+def bearing_with(resistance: float, density: float) -> tuple[Case, BearingSystem]:
     """A case and its bearing, without play, whose preloaded balls resist slip with ``resistance``
     [N s/m], linear while it is far below ``FULL_SLIP``; the cage has the mass ``MASS``."""
     steel = replace(deep_groove(0.0).material, density=density)
@@ -92,7 +92,7 @@ class PushingBalls:
     A constant torque holds the cage back; it changes nothing in the eigenvalues.
     """
 
-    bearing: Bearing
+    bearing: BearingSystem
     mu: float
 
     def __post_init__(self) -> None:
@@ -202,7 +202,7 @@ def growth(resistance: float, ball: float, mu: float) -> float:
     return float(roots.real.max())
 
 
-def growth_in_a_run(case: Case, bearing: Bearing, mu: float, near: float) -> float:
+def growth_in_a_run(case: Case, bearing: BearingSystem, mu: float, near: float) -> float:
     """Growth [1/s] of the forward whirl, ``near`` [rad/s], of a cage that is pushed a little.
 
     Drag holds it back. The velocity is turned back by the whirl and averaged over five turns, so

@@ -24,7 +24,7 @@ from flexcage.compiling import build_bearing
 from flexcage.core.errors import RunFailed
 from flexcage.modes.reduction import CageReduction
 from flexcage.stages import cage_mesh, cage_reduction
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 from flexcage.verification import Row, Tolerance
 from flexcage.verification.runs import ELASTIC, NO_OIL, SMOOTH, c7010
 
@@ -55,7 +55,7 @@ KEPT = Tolerance(1e-8, "share of the throw's; falls with solver.tolerance", abso
 STORED = Tolerance(1e-3, "share of the throw's energy, in several blows", absolute=True)
 
 
-def of_balls_and_rings(bearing: Bearing, ds: Any) -> tuple[np.ndarray, np.ndarray]:
+def of_balls_and_rings(bearing: BearingSystem, ds: Any) -> tuple[np.ndarray, np.ndarray]:
     """Momentum across the axis (time, 2) [kg m/s] and angular momentum about it (time,)."""
     model = bearing.data.model
     mass, inertia, _ = model.bodies.element
@@ -74,7 +74,7 @@ def of_balls_and_rings(bearing: Bearing, ds: Any) -> tuple[np.ndarray, np.ndarra
     return linear, angular
 
 
-def built(case: Case) -> tuple[Bearing, CageReduction | None]:
+def built(case: Case) -> tuple[BearingSystem, CageReduction | None]:
     """The case's bearing, and the reduction of its cage if that is flexible."""
     mesh = cage_mesh(case)
     reduction = cage_reduction(case, mesh)

@@ -21,7 +21,7 @@ from marching import march
 from n1013_states import bearing_of, cage_of, state_at_rest, throw_cage
 
 from flexcage.core.errors import RunFailed
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 from flexcage.verification import Row, Tolerance
 from flexcage.verification.runs import FRICTIONLESS, NO_OIL, n1013
 
@@ -50,7 +50,7 @@ TABLES = {
 KEPT = Tolerance(2e-9, "share of the throw's; falls with solver.tolerance", absolute=True)
 
 
-def of_rollers_and_rings(bearing: Bearing, ds: Any) -> tuple[np.ndarray, np.ndarray]:
+def of_rollers_and_rings(bearing: BearingSystem, ds: Any) -> tuple[np.ndarray, np.ndarray]:
     """Momentum across the axis (time, 2) [kg m/s] and angular momentum about it (time,)."""
     model = bearing.data.model
     mass, axial, transverse = model.bodies.element

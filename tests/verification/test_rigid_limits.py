@@ -22,7 +22,7 @@ from flexcage.cages.window.interface import rigid_interface
 from flexcage.compiling import build_bearing
 from flexcage.simulate import simulate
 from flexcage.system.layout import Layout, bodies_of_bearing
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 from flexcage.system.start import find_start
 
 WINDOW = {
@@ -121,7 +121,7 @@ def frozen_and_rigid():
         if pocket_law is not None:
             model.pocket.normal[:] = pocket_law
         layout = Layout(case.bearing.roller_count, bodies_of_bearing(body.modes))
-        return Bearing(MOTION, case.bearing, model, case.contacts, layout)
+        return BearingSystem(MOTION, case.bearing, model, case.contacts, layout)
 
     interface = replace(cage.interface, compliance=np.zeros_like(cage.interface.compliance))
     frozen = bearing(flexible, interface)
@@ -175,7 +175,7 @@ def test_modes_frozen_by_stiffness_run_as_the_rigid_cage(frozen_and_rigid):
         model = bearing.data.model._replace(
             cage=body._replace(kff=1e10 * body.kff, dff=1e5 * body.dff)
         )
-        one = Bearing(MOTION, case.bearing, model, case.contacts, bearing.layout,
+        one = BearingSystem(MOTION, case.bearing, model, case.contacts, bearing.layout,
                       block=case.output.block, stride=case.output.vibration_ratio)  # fmt: skip
         start = _start(one)
         datasets.append(march(case, one, *start))
@@ -186,11 +186,11 @@ def test_modes_frozen_by_stiffness_run_as_the_rigid_cage(frozen_and_rigid):
     assert error < 5e-3
 
 
-def _set_onset_speeds(bearing: Bearing, speed: float) -> None:
+def _set_onset_speeds(bearing: BearingSystem, speed: float) -> None:
     for speeds in bearing.data.memory[:4]:
         speeds[...] = speed
 
 
-def _start(bearing: Bearing) -> tuple[np.ndarray, np.ndarray]:
+def _start(bearing: BearingSystem) -> tuple[np.ndarray, np.ndarray]:
     start = find_start(bearing, limit_force=1e9)
     return start.y, start.yd

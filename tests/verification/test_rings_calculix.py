@@ -10,7 +10,7 @@ import ring_on_arcs_calculix as arcs
 from flexcage.bearings.ball.rings import grooved_section
 from flexcage.geometry.hertz import PointContact
 from flexcage.geometry.materials import Material
-from flexcage.modes.ring import Held, reduce_ring
+from flexcage.modes.ring import RingSeat, reduce_ring
 from flexcage.system.statics.rings import SeatedRing
 
 STORED = json.loads(arcs.STORED.read_text("utf-8"))
@@ -77,7 +77,7 @@ def test_approach_from_ball_to_seat():
             half=1e-3 * contact.HALF_WIDTH, seat=bottom + wall, angle=0.0,
             across=float(hertz.semi_axes(force)[0]),
         )  # fmt: skip
-        ring = force * reduce_ring(section, steel, Held()).local[1, 1]
+        ring = force * reduce_ring(section, steel, RingSeat()).local[1, 1]
         alone = (force / hertz.stiffness) ** (2.0 / 3.0)
         assert alone + ring == pytest.approx(whole, rel=0.02)
         shares.append((ring, whole - alone))

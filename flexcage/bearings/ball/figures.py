@@ -8,24 +8,24 @@ import numpy as np
 
 from flexcage.bearings.ball.slip import slip_ratio
 from flexcage.results.edges import Edge
-from flexcage.results.figures.figure import Found, Table
-from flexcage.results.figures.part import OwnFigures, Part
+from flexcage.results.figures.figure import FigureTable, Found
+from flexcage.results.figures.part import OwnFigures, SettledRun
 
 
-def _nominal_slip(part: Part) -> Found | None:
+def _nominal_slip(part: SettledRun) -> Found | None:
     if not part.caged:
         return None
     slip = part.slip(part.bearing.nominal)
     return Found(part.speed.nominal_slip, part.bearing.at_nominal, slip)
 
 
-def _spin_ideal(part: Part) -> Found:
+def _spin_ideal(part: SettledRun) -> Found:
     ideal = part.own.kinematics(part.inner_speed).element_spin_in_cage
     return Found(abs(ideal), part.own.at_angles)
 
 
 # fmt: off
-SPEEDS = Table[Part]("Speeds")
+SPEEDS = FigureTable[SettledRun]("Speeds")
 SPEEDS.add("epicyclic_speed_nominal", "Epicyclic cage speed, nominal", "rpm",
            "cage speed of pure rolling at the nominal contact angle", "signed",
            take=lambda part: Found(part.speed.nominal, part.bearing.at_nominal))
@@ -41,18 +41,18 @@ SPEEDS.add("ball_spin_ideal", "Ball speed, pure rolling", "rpm",
 # fmt: on
 
 
-def _slip_nominal(part: Part) -> Found:
+def _slip_nominal(part: SettledRun) -> Found:
     """Balls leave the nominal contact angle under load."""
     nominal = slip_ratio(part.whole, part.bearing, nominal=True)
     return Found(part.over(nominal, part.zone), part.bearing.at_nominal)
 
 
-def _curvature(part: Part) -> Found:
+def _curvature(part: SettledRun) -> Found:
     note = "balls roll on lines beside the middle of curved contacts"
     return Found(part.rolling.ball_slip if part.rolling else None, note)
 
 
-def _contact_angle(race: int, part: Part) -> Found:
+def _contact_angle(race: int, part: SettledRun) -> Found:
     """Mean of loaded balls that touch a race, and how far it ranges."""
     force, angle = (
         part.whole[name].transpose("time", "element", "race").values[..., race]
@@ -66,7 +66,7 @@ def _contact_angle(race: int, part: Part) -> Found:
 
 
 # fmt: off
-SLIP = Table[Part]("Slip")
+SLIP = FigureTable[SettledRun]("Slip")
 SLIP.add("slip_loaded_nominal", "Slip ratio, loaded balls, nominal", "%",
          "loaded balls' slip against pure rolling at the nominal contact angle",
          "signed", "statistic", take=_slip_nominal)
@@ -77,13 +77,13 @@ SLIP.add("contact_angle_inner", "Contact angle, inner race", "deg", "mean of loa
          "signed", "brief", take=partial(_contact_angle, 0))
 SLIP.add("contact_angle_outer", "Contact angle, outer race", "deg", "mean of loaded balls",
          "signed", take=partial(_contact_angle, 1))
-GROOVES = Table[Edge]("Grooves")
+GROOVES = FigureTable[Edge]("Grooves")
 GROOVES.add("edge_inner", "Ellipse beyond the inner groove's edge", "deg",
             "largest angle by which a contact ellipse passes the edge; below zero: it stays within",
             "signed", take=lambda edge: edge.found)
 GROOVES.add("edge_outer", "Ellipse beyond the outer groove's edge", "deg", "likewise", "signed",
             take=lambda edge: edge.found)
-MOTION = Table[Part]("Cage motion")
+MOTION = FigureTable[SettledRun]("Cage motion")
 MOTION.add("whirl_difference", "Whirl radius, max - min", "um",
            "of the centre's distance from the ring's axis", "signed",
            take=lambda part: Found(part.about_axis.largest - part.about_axis.smallest,

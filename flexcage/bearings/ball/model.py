@@ -20,7 +20,7 @@ from flexcage.contacts.ball_pocket import (
     ball_pocket_work,
     no_ball_pockets,
 )
-from flexcage.contacts.beside import Beside
+from flexcage.contacts.beside import BallsBeside
 from flexcage.contacts.groove import Groove
 from flexcage.contacts.land import NONE, LandData, no_land, with_other
 from flexcage.contacts.race import race_work
@@ -59,7 +59,7 @@ class BallModel(NamedTuple):
     inner: Groove
     outer: Groove
     pocket: BallPockets
-    beside: Beside
+    beside: BallsBeside
     spot: SpottedBalls
     land: LandData
 

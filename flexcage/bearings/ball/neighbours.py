@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.contacts import laws as contact_laws
-from flexcage.contacts.beside import Beside, TwoBalls, seen, touch_beside
+from flexcage.contacts.beside import BallsBeside, TwoBalls, seen, touch_beside
 from flexcage.contacts.evaluation import RACE_LAW, RACE_RUBS, REPORT, TANGENT
 from flexcage.contacts.laws import EXPONENT
 from flexcage.contacts.slices import Laws, stored_and_damped
@@ -38,14 +38,14 @@ _NEAR = 1.05  # balls so many diameters apart or nearer are looked at
 _POINT = 1.5  # exponent of a Hertz contact
 
 
-def besides(bearing: BallBearing, contacts: Contacts, radius: np.ndarray) -> Beside:
+def besides(bearing: BallBearing, contacts: Contacts, radius: np.ndarray) -> BallsBeside:
     """How balls of these radii (Z,) [m] touch each other, by the laws of the races."""
     half = 0.25 * bearing.ball_diameter  # of two equal spheres
     steel = PointContact(
         rolling=half, transverse=half, modulus=bearing.material.plane_strain_modulus
     )
     inside = 0.5 * bearing.pitch_diameter * (1.0 - _INWARDS)
-    return Beside(
+    return BallsBeside(
         apart=2.0 * asin(min(_NEAR * float(radius.max()) / inside, 1.0)),
         normal=contact_laws.normal_parameters(contacts.race.normal, steel.stiffness, _POINT),
         friction=contact_laws.friction_parameters(contacts.race.friction),

@@ -11,7 +11,7 @@ from flexcage.bearings.ball.model import BallModel
 from flexcage.contacts.ball_pocket import SPHERE
 from flexcage.integrate.recording import Recording
 from flexcage.system.layout import Layout
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 
 
 def _coords(model: BallModel) -> dict[str, Any]:
@@ -19,7 +19,7 @@ def _coords(model: BallModel) -> dict[str, Any]:
     return {"station": np.arange(stations)} if stations else {}
 
 
-def _variables(bearing: Bearing, y: np.ndarray) -> dict[str, np.ndarray]:
+def _variables(bearing: BearingSystem, y: np.ndarray) -> dict[str, np.ndarray]:
     s, n = bearing.data.samples, len(y)
     q, u = bearing.layout.q(y)["elements"], bearing.layout.u(y)["elements"]
     return {

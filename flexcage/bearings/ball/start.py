@@ -20,7 +20,7 @@ from flexcage.bearings.ball.spot import BallSpot
 from flexcage.bodies.floating_frame import BodyData
 from flexcage.system.begun import Advance, Start, StaticStart
 from flexcage.system.layout import Layout
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 from flexcage.system.rings.moving import SIDES
 from flexcage.system.start import made_room
 from flexcage.system.statics.solution import StaticSolution
@@ -29,7 +29,7 @@ _ALIKE = 1e-3  # rad: contact angles closer than this leave a ball's axis to the
 
 
 def ball_start(
-    bearing: Bearing, *, limit_force: float, statics: StaticStart | None, advance: Advance
+    bearing: BearingSystem, *, limit_force: float, statics: StaticStart | None, advance: Advance
 ) -> Start:
     """The static solution, which has to be given, with balls that roll; no force is limited."""
     assert statics is not None, "balls start at their static solution"
@@ -47,7 +47,7 @@ def ball_start(
 
 
 def ball_start_between_bent_rings(
-    bearing: Bearing, *, limit_force: float, statics: StaticStart | None, advance: Advance
+    bearing: BearingSystem, *, limit_force: float, statics: StaticStart | None, advance: Advance
 ) -> Start:
     """The same between rings that bend, with balls on the outer race where that yields to."""
     assert bearing.rings is not None, "rings bend as in a static solution"
@@ -60,7 +60,7 @@ def ball_start_between_bent_rings(
     return replace(start, y=y)
 
 
-def ball_places(bearing: Bearing, solution: StaticSolution) -> np.ndarray:
+def ball_places(bearing: BearingSystem, solution: StaticSolution) -> np.ndarray:
     """y with rings and balls where the static solution has them, the cage centred on the balls.
 
     A ball that bears nothing lies on the outer race at the angle of the others, or at none.

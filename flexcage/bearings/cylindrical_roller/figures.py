@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from flexcage.results.figures.figure import Found, Table
-from flexcage.results.figures.part import OwnFigures, Part
+from flexcage.results.figures.figure import FigureTable, Found
+from flexcage.results.figures.part import OwnFigures, SettledRun
 
 
-def _counter_ribs(part: Part) -> np.ndarray | None:
+def _counter_ribs(part: SettledRun) -> np.ndarray | None:
     """Forces of counter ribs (time, element, rib) [N]."""
     if "counter_rib_force" not in part.ds:  # a part of a run
         return None
     return part.ds["counter_rib_force"].transpose("time", "element", "rib").values
 
 
-def _through_ribs(part: Part) -> Found | None:
+def _through_ribs(part: SettledRun) -> Found | None:
     force = _counter_ribs(part)
     if force is None:
         return None
@@ -23,27 +23,27 @@ def _through_ribs(part: Part) -> Found | None:
     return Found(part.windows.mean(np.abs(plus - minus)), idle=not force.any())
 
 
-def _rib_peak(part: Part) -> Found | None:
+def _rib_peak(part: SettledRun) -> Found | None:
     force = _counter_ribs(part)
     return None if force is None else Found(float(force.max()), idle=not force.any())
 
 
 # fmt: off
-SPEEDS = Table[Part]("Speeds")
+SPEEDS = FigureTable[SettledRun]("Speeds")
 SPEEDS.add("roller_spin", "Roller spin, mean of all", "rpm",
            "about the roller's axis, inertial frame, positive as in rolling", "signed",
            take=lambda part: Found(part.spin, "inertial frame, positive as in rolling"))
 SPEEDS.add("roller_spin_ideal", "Roller spin, pure rolling", "rpm", "the same in pure rolling",
            "signed",
            take=lambda part: abs(part.bearing.kinematics(part.inner_speed).element_spin))
-SLIP = Table[Part]("Slip")
+SLIP = FigureTable[SettledRun]("Slip")
 SLIP.add("sliding_inner_unloaded", "Sliding, inner race, unloaded", "m/s",
          "mean sliding speed of unloaded rollers", "signed",
          take=lambda part: part.sliding_unloaded[0])
 SLIP.add("sliding_outer_unloaded", "Sliding, outer race, unloaded", "m/s",
          "mean sliding speed of unloaded rollers", "signed",
          take=lambda part: part.sliding_unloaded[1])
-FORCES = Table[Part]("Forces")
+FORCES = FigureTable[SettledRun]("Forces")
 FORCES.add("axial_through_ribs", "Axial load through ribs, mean", "N",
            "from ring to ring through all rollers; zero of the designs N and NU", "statistic",
            take=_through_ribs)

@@ -12,7 +12,7 @@ from flexcage.contacts.pocket_wall import N_LOCAL
 from flexcage.integrate.postures import orientation, to_body
 from flexcage.integrate.recording import Recording
 from flexcage.system.layout import Layout
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 
 
 def _coords(model: RollerModel) -> dict[str, Any]:
@@ -38,7 +38,7 @@ def _coords(model: RollerModel) -> dict[str, Any]:
     }
 
 
-def _variables(bearing: Bearing, y: np.ndarray) -> dict[str, np.ndarray]:
+def _variables(bearing: BearingSystem, y: np.ndarray) -> dict[str, np.ndarray]:
     s, n = bearing.data.samples, len(y)
     q, u = bearing.layout.q(y)["elements"], bearing.layout.u(y)["elements"]
     return {
@@ -58,7 +58,7 @@ def _variables(bearing: Bearing, y: np.ndarray) -> dict[str, np.ndarray]:
     }
 
 
-def _in_pockets(bearing: Bearing, n: int) -> dict[str, np.ndarray]:
+def _in_pockets(bearing: BearingSystem, n: int) -> dict[str, np.ndarray]:
     s, root = bearing.data.samples, bearing.data.model.pocket.root
     return {
         "pocket_slice_force": s.slice_normal[:n],
@@ -69,7 +69,7 @@ def _in_pockets(bearing: Bearing, n: int) -> dict[str, np.ndarray]:
     }
 
 
-def _beside(bearing: Bearing, n: int) -> dict[str, np.ndarray]:
+def _beside(bearing: BearingSystem, n: int) -> dict[str, np.ndarray]:
     """Of rollers without a cage: next ones stand for walls of pockets (``Motion.uncaged``)."""
     return {"neighbour_force": bearing.data.samples.pocket_normal[:n, :, 0]}
 

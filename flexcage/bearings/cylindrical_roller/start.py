@@ -34,7 +34,7 @@ from flexcage.system.constraints import OFF, no_rows
 from flexcage.system.data import INNER_RACE, OUTER_RACE
 from flexcage.system.layout import Layout
 from flexcage.system.newton import assemble, newton_step
-from flexcage.system.problem import Bearing
+from flexcage.system.problem import BearingSystem
 from flexcage.system.ring import CLEARANCE
 from flexcage.system.rings.left_out import left_by_ribs
 from flexcage.system.rings.modes_data import standing
@@ -174,7 +174,7 @@ class _Frictionless:
     """The bearing without friction, damping, drag, rolling resistance and gravity, and without
     films; ``lands``: with the cage's dry lands, which a free cage is to keep off by itself."""
 
-    def __init__(self, bearing: Bearing, offset: np.ndarray, *, lands: bool = False) -> None:
+    def __init__(self, bearing: BearingSystem, offset: np.ndarray, *, lands: bool = False) -> None:
         model = bearing.data.model
         land = min(model.land.kind, DRY) if lands else NONE
         still = model._replace(
@@ -204,7 +204,7 @@ class _Frictionless:
         self._evaluate(y, yd, REPORT)
         return self.data.work.report
 
-    def step(self, y, yd, r, alpha: float, held: Held) -> np.ndarray:
+    def step(self, y, yd, r, alpha: float, held: HeldMotions) -> np.ndarray:
         """Displacement step dq of the implicit Euler step 1/alpha from rest."""
         tangent, at = self.data.work.tangent, self.data.places
         self._evaluate(y, yd, TANGENT)
@@ -230,7 +230,7 @@ def _check_force(
 
 
 def _not_assembled(
-    bearing: Bearing, force: float, limit: float, share: float, pinched: np.ndarray
+    bearing: BearingSystem, force: float, limit: float, share: float, pinched: np.ndarray
 ) -> InputError:
     """What is to blame for a pocket's ``force`` beyond ``limit`` [N] at a share of the defects."""
     model = bearing.data.model
@@ -268,7 +268,7 @@ def _others(model: RollerModel) -> str:
     return f"the load, {moment}the speed, the misalignment or the clearance"
 
 
-def _sound_one_assembles(bearing: Bearing, limit: float) -> bool:
+def _sound_one_assembles(bearing: BearingSystem, limit: float) -> bool:
     """Does the bearing come to equilibrium, no pocket beyond ``limit`` [N], without defects?"""
     model, layout = bearing.data.model, bearing.layout
     none = 0.0 * model.pocket.offset
@@ -286,7 +286,7 @@ def _load(model: RollerModel) -> float:
 
 
 @dataclass(frozen=True)
-class Held:
+class HeldMotions:
     """Motions that friction holds while the bearing is brought to equilibrium without it."""
 
     # (Z, 6) along the orbit; sideways and in skew unless pinched; in spin on the edges of a spot
@@ -294,7 +294,7 @@ class Held:
     cage: np.ndarray  # (6,) where a pinch holds the cage: all but those along which it squeezes
 
 
-def _held(tight: np.ndarray, spotted: np.ndarray, *, along: bool) -> Held:
+def _held(tight: np.ndarray, spotted: np.ndarray, *, along: bool) -> HeldMotions:
     """What is held where pockets are too small across or along (Z, 2) for their rollers, and of
     those (Z,) that have a spot; ``along``: do rollers find their place along the axis?"""
     pinched = np.any(tight, axis=1)
@@ -306,10 +306,12 @@ def _held(tight: np.ndarray, spotted: np.ndarray, *, along: bool) -> Held:
     cage = np.full(6, bool(pinched.any()))
     cage[0] &= not tight[:, 1].any()  # side beams find their place along x
     cage[3] &= not tight[:, 0].any()  # crossbeams by turning about it
-    return Held(rollers, cage)
+    return HeldMotions(rollers, cage)
 
 
-def _measure(layout: Layout, r: np.ndarray, lever: float, held: Held, free: np.ndarray) -> float:
+def _measure(
+    layout: Layout, r: np.ndarray, lever: float, held: HeldMotions, free: np.ndarray
+) -> float:
     """Largest unbalanced force [N] (moments over a lever) of the rows that are free; ``free`` (3,):
     is the inner ring free axially, in skew, in tilt?"""
     u = {k: v.copy() for k, v in layout.u(r).items()}
@@ -394,7 +396,7 @@ def _stages(model: RollerModel, offset: np.ndarray) -> np.ndarray:
 
 
 def roller_start(
-    bearing: Bearing, *, limit_force: float, statics: StaticStart | None, advance: Advance
+    bearing: BearingSystem, *, limit_force: float, statics: StaticStart | None, advance: Advance
 ) -> Start:
     """Equilibrium at epicyclic speeds; the static solution is not asked for. Where none is found on
     spalls or on spots of rollers, the start is that of even ones."""
@@ -422,7 +424,9 @@ def _even(side: RaceSide) -> RaceSide:
     return side._replace(spall=spall, uneven=is_uneven(side.wave, spall))
 
 
-def _start(bearing: Bearing, limit_force: float, advance: Advance, *, allowed: float) -> Start:
+def _start(
+    bearing: BearingSystem, limit_force: float, advance: Advance, *, allowed: float
+) -> Start:
     """The start with ``allowed`` of the load unbalanced at most; RunFailed if there is none."""
     model, layout = bearing.data.model, bearing.layout
     offset = model.pocket.offset
@@ -464,7 +468,7 @@ def _start(bearing: Bearing, limit_force: float, advance: Advance, *, allowed: f
 
 
 def roller_start_between_bent_rings(
-    bearing: Bearing, *, limit_force: float, statics: StaticStart | None, advance: Advance
+    bearing: BearingSystem, *, limit_force: float, statics: StaticStart | None, advance: Advance
 ) -> Start:
     """The same between races that are bent as in the static solution, which has to be given; rings
     bear what then presses on them."""

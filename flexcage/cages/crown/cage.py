@@ -16,7 +16,7 @@ from typing import ClassVar
 from flexcage.cages.round_pocket.cage import BALL_CAGES, BallCage
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe, typeset
-from flexcage.geometry.cage import Cage, Elements, Objection
+from flexcage.geometry.cage import Cage, HeldElements, Objection
 from flexcage.geometry.materials import MATERIALS, Material
 
 _THINNEST = (
@@ -153,7 +153,7 @@ class CrownCage(BallCage):
         if self.pocket_scatter > 0.0:
             yield "pocket_scatter", "is of machined cages; a crown cage has its pockets evenly"
 
-    def no_room(self, bearing: Elements) -> Iterator[Objection]:
+    def no_room(self, bearing: HeldElements) -> Iterator[Objection]:
         yield from self._tight(bearing)
         if not self.throat < bearing.element_diameter:
             size = describe(bearing.element_diameter, "mm")
@@ -178,7 +178,7 @@ class CrownCage(BallCage):
             "centres; make claws, roots or pockets smaller",
         )
 
-    def _over_shoulders(self, bearing: Elements) -> Iterator[Objection]:
+    def _over_shoulders(self, bearing: HeldElements) -> Iterator[Objection]:
         """Claws and ring that overlap a ring's shoulder, given or assumed."""
         inner, outer = bearing.cage_space(self)
         if inner is not None and not self.bore > inner.diameter:

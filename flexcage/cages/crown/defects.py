@@ -18,8 +18,8 @@ from flexcage.core.spec import option, quantity
 from flexcage.core.units import mm, typeset
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.defect import (
+    CageLine,
     Finding,
-    Line,
     Mark,
     Reading,
     around,
@@ -190,7 +190,7 @@ class CrackedClaw(ClawDefect):
     def legend(self) -> Sequence[Mark]:
         return _BROKEN
 
-    def lines(self, points: np.ndarray, count: int) -> list[Line]:
+    def lines(self, points: np.ndarray, count: int) -> list[CageLine]:
         from flexcage.cages.crown.morph import doubled_line
 
         return doubled_line(points, count, self.pocket, self.sign)
@@ -237,7 +237,7 @@ class MissingClaw(ClawDefect):
     def legend(self) -> Sequence[Mark]:
         return _BROKEN
 
-    def lines(self, points: np.ndarray, count: int) -> list[Line]:
+    def lines(self, points: np.ndarray, count: int) -> list[CageLine]:
         from flexcage.cages.crown.morph import broken_line
 
         return broken_line(points, count, self.pocket, self.sign)

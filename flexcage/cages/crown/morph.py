@@ -14,7 +14,7 @@ import numpy as np
 
 from flexcage.cages.crown.cage import CrownCage
 from flexcage.cages.round_pocket.crack import with_doubled
-from flexcage.geometry.defect import Line
+from flexcage.geometry.defect import CageLine
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.measure import in_pocket_frame
 from flexcage.mesh.ring import turn_about_x
@@ -197,20 +197,20 @@ def missing_height(mesh: CageMesh, cage: CrownCage, pocket: int, sign: float) ->
     return cage.tip - float(own[:, 0].max())
 
 
-def doubled_line(points: np.ndarray, count: int, pocket: int, sign: float) -> list[Line]:
+def doubled_line(points: np.ndarray, count: int, pocket: int, sign: float) -> list[CageLine]:
     """The mouth of a crack on the bore."""
     own = points[_doubled(points, pocket, sign, count)]
     return _line(own, pocket, count, inner=True)
 
 
-def broken_line(points: np.ndarray, count: int, pocket: int, sign: float) -> list[Line]:
+def broken_line(points: np.ndarray, count: int, pocket: int, sign: float) -> list[CageLine]:
     """The edge of bar and broken claw on the cage's outside."""
     own = points[_beside(points, pocket, sign, count)]
     top = own[own[:, 0] > own[:, 0].max() - _TINY * np.ptp(points[:, 0])]
     return _line(top, pocket, count, inner=False)
 
 
-def _line(own: np.ndarray, pocket: int, count: int, *, inner: bool) -> list[Line]:
+def _line(own: np.ndarray, pocket: int, count: int, *, inner: bool) -> list[CageLine]:
     """Through those points that lie innermost or outermost, along the circumference."""
     if len(own) < 2:
         return []
@@ -218,4 +218,4 @@ def _line(own: np.ndarray, pocket: int, count: int, *, inner: bool) -> list[Line
     edge = radius.min() if inner else radius.max()
     on = own[np.abs(radius - edge) < 1e-4 * edge]
     on = on[np.argsort(in_pocket_frame(on, pocket, count)[:, 2])]
-    return [Line(on, on[len(on) // 2])]
+    return [CageLine(on, on[len(on) // 2])]

@@ -14,7 +14,7 @@ from flexcage.cages.round_pocket.places import round_walls
 from flexcage.fem.model import FEModel
 from flexcage.modes.lands import LANDS
 from flexcage.modes.pockets import pocket_frame
-from flexcage.stress.places import PlaceKind, Places
+from flexcage.stress.places import PlaceKind, StressPlaces
 
 _UNDER = 0.5  # of the pocket's radius: half the breadth of the ring under it
 
@@ -38,7 +38,7 @@ def _sections(model: FEModel, pocket_count: int) -> dict[str, np.ndarray]:
     return places
 
 
-CROWN_PLACES = Places(
+CROWN_PLACES = StressPlaces(
     roots=_sections,
     contact_zone=round_walls,
     kind=PlaceKind(

@@ -16,7 +16,7 @@ from typing import ClassVar
 from flexcage.cages.round_pocket.cage import BALL_CAGES, BallCage
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe, typeset
-from flexcage.geometry.cage import Cage, Elements, Objection
+from flexcage.geometry.cage import Cage, HeldElements, Objection
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.riveted_joint import JointShape
 
@@ -149,7 +149,7 @@ class RibbonCage(BallCage):
         if self.pocket_scatter > 0.0:
             yield "pocket_scatter", "is of machined cages; a ribbon cage has its pockets evenly"
 
-    def no_room(self, bearing: Elements) -> Iterator[Objection]:
+    def no_room(self, bearing: HeldElements) -> Iterator[Objection]:
         pitch_diameter, pocket_count = bearing.pitch_diameter, bearing.element_count
         yield from self._tight(bearing)
         yield from self._low_rim(pitch_diameter)

@@ -11,7 +11,7 @@ import numpy as np
 
 from flexcage.cages.round_pocket.defects import BallCageDefect, find_repeated
 from flexcage.core.spec import option
-from flexcage.geometry.defect import Finding, Line, Mark, Reading, defect_type
+from flexcage.geometry.defect import CageLine, Finding, Mark, Reading, defect_type
 
 if TYPE_CHECKING:
     from flexcage.mesh.cage_mesh import CageMesh
@@ -47,7 +47,7 @@ class MissingRivet(BallCageDefect):
     def legend(self) -> Sequence[Mark]:
         return (Mark("line", "crack", "place of the missing rivet"),)
 
-    def lines(self, points: np.ndarray, count: int) -> list[Line]:
+    def lines(self, points: np.ndarray, count: int) -> list[CageLine]:
         """A ring round each of its heads."""
         psi = 2.0 * pi * self.place / count
         radial, around = (np.array([0.0, np.cos(a), np.sin(a)]) for a in (psi, psi + 0.5 * pi))
@@ -58,7 +58,7 @@ class MissingRivet(BallCageDefect):
         angle = np.linspace(0.0, 2.0 * pi, 73)[:, None]
         ring = size * (np.cos(angle) * radial + np.sin(angle) * around)
         centres = [np.array([x, 0.0, 0.0]) + middle * radial for x in (high, -high)]
-        return [Line(centre + ring, centre) for centre in centres]
+        return [CageLine(centre + ring, centre) for centre in centres]
 
     @property
     def label(self) -> str:

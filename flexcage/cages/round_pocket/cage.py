@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe, typeset
-from flexcage.geometry.cage import Cage, Elements, Objection, cages_of
+from flexcage.geometry.cage import Cage, HeldElements, Objection, cages_of
 from flexcage.geometry.materials import MATERIALS, Material
 
 POCKET_SHAPES = ("cylindrical", "spherical")
@@ -106,7 +106,7 @@ class BallCage(Cage):
                 f"than {describe(chord, 'mm')}",
             )
 
-    def no_room(self, bearing: Elements) -> Iterator[Objection]:
+    def no_room(self, bearing: HeldElements) -> Iterator[Objection]:
         yield from self._tight(bearing)
         yield from self._low_rim(bearing.pitch_diameter)
         chord = bearing.pitch_diameter * sin(pi / bearing.element_count)
@@ -117,7 +117,7 @@ class BallCage(Cage):
                 f"{describe(chord, 'mm')}",
             )
 
-    def _tight(self, bearing: Elements) -> Iterator[Objection]:
+    def _tight(self, bearing: HeldElements) -> Iterator[Objection]:
         """Pockets that no ball goes into."""
         if self.pocket_diameter <= bearing.element_diameter:
             size = describe(bearing.element_diameter, "mm")

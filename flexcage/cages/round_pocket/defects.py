@@ -23,8 +23,8 @@ from flexcage.core.units import mm, typeset
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.defect import (
     CageDefect,
+    CageLine,
     Finding,
-    Line,
     Mark,
     Reading,
     around,
@@ -268,7 +268,7 @@ class WebCrack(BallCageDefect):
     def legend(self) -> Sequence[Mark]:
         return (Mark("line", "crack", "crack through the whole wall"),)
 
-    def lines(self, points: np.ndarray, count: int) -> list[Line]:
+    def lines(self, points: np.ndarray, count: int) -> list[CageLine]:
         """On the outside, across the end, and on the inside of the cage."""
         psi = 2.0 * pi * self.place / count
         radial, axis = np.array([0.0, np.cos(psi), np.sin(psi)]), np.array([1.0, 0.0, 0.0])
@@ -277,7 +277,7 @@ class WebCrack(BallCageDefect):
         tip = end * (1.0 - 2.0 * self.share)
         places = [(tip, r.max()), (end, r.max()), (end, r.min()), (tip, r.min())]
         path = np.array([x * axis + radius * radial for x, radius in places])
-        return [Line(np.array([a, b]), 0.5 * (a + b)) for a, b in zip(path, path[1:])]
+        return [CageLine(np.array([a, b]), 0.5 * (a + b)) for a, b in zip(path, path[1:])]
 
     @property
     def label(self) -> str:

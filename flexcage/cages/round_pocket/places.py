@@ -11,7 +11,7 @@ import numpy as np
 from flexcage.fem.model import FEModel
 from flexcage.modes.lands import LANDS
 from flexcage.modes.pockets import pocket_frame
-from flexcage.stress.places import PlaceKind, Places
+from flexcage.stress.places import PlaceKind, StressPlaces
 
 SECTIONS = ("waist_front", "rim+x", "waist_rear", "rim-x")  # by quarters of a turn from +psi
 
@@ -38,7 +38,7 @@ def round_walls(model: FEModel, pocket_count: int) -> np.ndarray:
     return np.setdiff1d(np.concatenate(walls), np.concatenate(edges))
 
 
-ROUND_PLACES = Places(
+ROUND_PLACES = StressPlaces(
     roots=_sections,
     contact_zone=round_walls,
     kind=PlaceKind(

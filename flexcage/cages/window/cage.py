@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import mm, typeset
-from flexcage.geometry.cage import Cage, Elements, Objection, cages_of
+from flexcage.geometry.cage import Cage, HeldElements, Objection, cages_of
 
 _SHARPEST = 1e-4  # fillet, of the pocket's smaller side; smaller ones are lost in its mesh
 GUIDANCE = ("roller", "inner", "outer")
@@ -96,7 +96,7 @@ class WindowCage(Cage):
                 f"is a sharp corner; it must be at least {mm(2.0 * _SHARPEST * half)}",
             )
 
-    def no_room(self, bearing: Elements) -> Iterator[Objection]:
+    def no_room(self, bearing: HeldElements) -> Iterator[Objection]:
         for name, size, own, what in (
             ("pocket_width", self.pocket_width, bearing.element_diameter, "diameter"),
             ("pocket_length", self.pocket_length, bearing.element_length, "length"),
@@ -109,7 +109,7 @@ class WindowCage(Cage):
                 )
         yield from self._edges_in_fillets(bearing)
 
-    def _edges_in_fillets(self, bearing: Elements) -> Iterator[Objection]:
+    def _edges_in_fillets(self, bearing: HeldElements) -> Iterator[Objection]:
         edge = bearing.element_edge
         aside = self.fillet_radius - edge - 0.5 * (self.pocket_width - bearing.element_diameter)
         along = self.fillet_radius - edge - 0.5 * (self.pocket_length - bearing.element_length)

@@ -8,7 +8,7 @@ from flexcage.fem.model import FEModel
 from flexcage.modes.basis import FACES, CageInterface
 from flexcage.modes.pockets import face_group
 from flexcage.stress.fillets import Fillet, Keeping, corner_fillets, find_fillets, rounded
-from flexcage.stress.places import PlaceKind, Places
+from flexcage.stress.places import PlaceKind, StressPlaces
 
 # faces that meet in each corner of a pocket, and its signs of x and psi
 _CORNERS: dict[str, tuple[str, str, int, int]] = {
@@ -51,7 +51,7 @@ def _fillets(
     return find_fillets(model, interface.stations, pocket_count, keep=keep)
 
 
-WINDOW_PLACES = Places(
+WINDOW_PLACES = StressPlaces(
     roots=_corners,
     contact_zone=_plane_faces,
     kind=PlaceKind(

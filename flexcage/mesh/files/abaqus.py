@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from flexcage.mesh.files.deck import NO_SHIFT, Deck, Part
+from flexcage.mesh.files.deck import NO_SHIFT, Deck, DeckPart
 from flexcage.mesh.files.keywords import WRITTEN_OUT, Block, blocks, real, reals, refuse, whole
 from flexcage.mesh.files.raw import RawMesh, Refused, listed, text_of
 from flexcage.mesh.files.sets import key_of
@@ -121,7 +121,7 @@ def _elements(deck: Deck, block: Block) -> None:
         deck.elsets.put(deck.scope, deck.scope, block.values["ELSET"], rows)
 
 
-def _add(part: Part, block: Block, kind: str, size: int, name: str) -> list[tuple[int, int]]:
+def _add(part: DeckPart, block: Block, kind: str, size: int, name: str) -> list[tuple[int, int]]:
     """Add elements, each of which may take several lines; their numbers and lines."""
     added, line, begun = [], block.line, []
     for line, row in block.data():
@@ -171,7 +171,7 @@ def read_inp(path: Path) -> RawMesh:
     ``Refused``."""
     deck = read_deck(path)
     own = _with_solids(deck)
-    part = deck.parts.get(own, Part())
+    part = deck.parts.get(own, DeckPart())
     place = {number: i for i, number in enumerate(part.nodes)}
     used = {n for _, nodes in part.elements.values() for n in nodes}
     if lacking := sorted(used - place.keys()):

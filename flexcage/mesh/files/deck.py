@@ -11,7 +11,7 @@ NO_SHIFT = (0.0, 0.0, 0.0)
 
 
 @dataclass
-class Part:
+class DeckPart:
     """Nodes and elements of a part, an instance with a mesh of its own, or a deck without parts."""
 
     nodes: dict[int, list[float]] = field(default_factory=dict)
@@ -28,7 +28,7 @@ class Part:
 class Deck:
     """What a deck says: parts, their instances, sets and surfaces."""
 
-    parts: dict[str, Part] = field(default_factory=dict)
+    parts: dict[str, DeckPart] = field(default_factory=dict)
     part_of: dict[str, str] = field(default_factory=dict)  # instance -> part
     moves: dict[str, Block] = field(default_factory=dict)  # instance -> its block
     elsets: Sets = field(default_factory=lambda: Sets("element"))
@@ -38,9 +38,9 @@ class Deck:
     scope: str = ""
     shift: tuple[float, float, float] = NO_SHIFT  # of nodes, by *SYSTEM
 
-    def here(self, block: Block) -> Part:
+    def here(self, block: Block) -> DeckPart:
         """The part that a block is of."""
-        part = self.parts.setdefault(self.scope, Part())
+        part = self.parts.setdefault(self.scope, DeckPart())
         part.first = part.first or block.line
         return part
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
 
-from flexcage.mesh.files.deck import Deck, Part
+from flexcage.mesh.files.deck import Deck, DeckPart
 from flexcage.mesh.files.keywords import Block
 from flexcage.mesh.files.raw import Refused, group_name, listed
 from flexcage.mesh.files.sets import Member, key_of
@@ -61,7 +61,7 @@ class _Maker:
     key: str  # of the part
 
     @property
-    def part(self) -> Part:
+    def part(self) -> DeckPart:
         return self.deck.parts[self.key]
 
     @cached_property

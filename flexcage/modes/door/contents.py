@@ -21,7 +21,7 @@ log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Points:
+class FileNodes:
     """Nodes of a file: numbers (N,), places (N, 3), elements and named sets of node numbers.
 
     ``frames`` (N, 3, 3): rows are the directions of a node's coordinates, where these are not those
@@ -47,7 +47,7 @@ class Contents:
     stiffness: Any
     mass: Any | None
     labels: np.ndarray | None = None
-    points: Points | None = None
+    points: FileNodes | None = None
     shapes: np.ndarray | None = None
     kind: tuple[str, ...] = ()
 
@@ -229,9 +229,9 @@ def _wide(matrix: Any, columns: int, name: str, path: Path, where: str) -> np.nd
     )
 
 
-def _points(places: np.ndarray, numbers: Any | None, path: Path, where: str) -> Points:
+def _points(places: np.ndarray, numbers: Any | None, path: Path, where: str) -> FileNodes:
     if numbers is None:
-        return Points(numbers=np.arange(1, len(places) + 1), places=places)
+        return FileNodes(numbers=np.arange(1, len(places) + 1), places=places)
     given = np.ravel(_whole(numbers, "NUMBERS", path, where))
     found, count = np.unique(given, return_counts=True)
     if len(given) != len(places) or (count > 1).any():
@@ -242,7 +242,7 @@ def _points(places: np.ndarray, numbers: Any | None, path: Path, where: str) -> 
             where=where,
             value=str(path),
         )
-    return Points(numbers=given, places=places)
+    return FileNodes(numbers=given, places=places)
 
 
 def _dense(matrix: Any) -> np.ndarray:

@@ -20,7 +20,7 @@ from flexcage.core.writing import written
 from flexcage.mesh.files.others import PACKED, told
 from flexcage.modes.door.body import MODAL, ReducedBody
 from flexcage.modes.door.checks import check_body
-from flexcage.modes.door.contents import Contents, Points
+from flexcage.modes.door.contents import Contents, FileNodes
 from flexcage.modes.door.modal import check_named, check_usual, usual_dofs
 from flexcage.modes.door.nodes import read_points
 from flexcage.modes.door.systems import SI, SYSTEMS, System, coordinate_units
@@ -109,7 +109,7 @@ def _module(ending: str) -> Any:
     return importlib.import_module(f"flexcage.modes.door.{FORMATS[ending]}")
 
 
-def _body(contents: Contents, points: Points | None, path: Path, where: str) -> ReducedBody:
+def _body(contents: Contents, points: FileNodes | None, path: Path, where: str) -> ReducedBody:
     """The body in the file's own units, coordinates by node."""
     if points is None:
         raise InputError(
@@ -193,7 +193,7 @@ def _check_from_one(labels: np.ndarray, numbers: np.ndarray, path: Path, where: 
         )
 
 
-def _check_shapes(contents: Contents, points: Points, path: Path, where: str) -> None:
+def _check_shapes(contents: Contents, points: FileNodes, path: Path, where: str) -> None:
     n, count = contents.stiffness.shape[0], len(points.numbers)
     wanted = {
         "stiffness": (contents.stiffness, (n, n)),

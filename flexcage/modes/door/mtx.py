@@ -24,7 +24,7 @@ from flexcage.core.errors import InputError
 from flexcage.mesh.files.abaqus import read_nodes
 from flexcage.mesh.files.raw import lines_of, text_of
 from flexcage.modes.door.body import ReducedBody
-from flexcage.modes.door.contents import Contents, Points, labels_of, numbers_of, unreadable
+from flexcage.modes.door.contents import Contents, FileNodes, labels_of, numbers_of, unreadable
 
 _OWN = "** FLEXCAGE "  # begins the comments of ours
 _CALCULIX, _HEAD = "** GENERATION OF SUBSTRUCTURE", 5  # among its first lines
@@ -67,7 +67,7 @@ def _contents(path: Path, where: str) -> Contents:
         stiffness=matrices["STIFFNESS"],
         mass=matrices.get("MASS"),
         labels=labels,
-        points=Points(numbers=numbers, places=places, sets=sets) if len(numbers) else None,
+        points=FileNodes(numbers=numbers, places=places, sets=sets) if len(numbers) else None,
         shapes=None if shapes is None else np.array(shapes, float).reshape(-1, len(labels)),
         kind=tuple(own.get("KINDS", ())),
     )

@@ -15,7 +15,7 @@ from flexcage.core.missing import no_file
 from flexcage.mesh.files.abaqus import read_nodes
 from flexcage.mesh.files.others import PACKED, told
 from flexcage.mesh.files.raw import Refused, lines_of, listed, text_of
-from flexcage.modes.door.contents import Points, unreadable
+from flexcage.modes.door.contents import FileNodes, unreadable
 from flexcage.modes.door.nastran import nastran
 
 _NOT_FOLLOWED = ("INCLUDE", "GRDSET", "GRIDB", "GRIDG", "EGRID", "GRIDA")
@@ -24,7 +24,7 @@ _END = re.compile(r"^ENDDATA\b", re.MULTILINE | re.IGNORECASE)  # what follows i
 _SYSTEMS = ("CORD1R", "CORD1C", "CORD1S", "CORD3G")  # pyYeti reads CORD2R, CORD2C and CORD2S
 
 
-def read_points(path: Path, *, where: str) -> Points:
+def read_points(path: Path, *, where: str) -> FileNodes:
     """Nodes of a deck, by its ending; InputError for one of another kind, or without nodes."""
     ending = path.suffix.lower()
     if ending not in _READERS:
@@ -41,7 +41,7 @@ def read_points(path: Path, *, where: str) -> Points:
     return found
 
 
-def read_grids(path: Path, *, where: str, needed: bool = True) -> Points | None:
+def read_grids(path: Path, *, where: str, needed: bool = True) -> FileNodes | None:
     """GRID entries of a Nastran bulk file; places in its basic coordinate system, and frames where
     grids move in systems of their own.
 
@@ -67,7 +67,7 @@ def read_grids(path: Path, *, where: str, needed: bool = True) -> Points | None:
         if needed:
             raise InputError(f"{path} has no GRID entries.", where=where, value=str(path))
         return None
-    return Points(numbers=table[:, 0].astype(np.int64), places=table[:, 2:5].copy())
+    return FileNodes(numbers=table[:, 0].astype(np.int64), places=table[:, 2:5].copy())
 
 
 def _refuse_entries(text: str, *, systems: bool) -> None:
@@ -115,30 +115,30 @@ def _refuse_twice(numbers: np.ndarray) -> None:
         raise Refused(f"it numbers grids twice ({listed(found[count > 1])}); write each once")
 
 
-def _grids_in_systems(text: str) -> Points:
+def _grids_in_systems(text: str) -> FileNodes:
     """Grids with coordinate systems (CORD entries) of their own, by pyYeti's table of them."""
     bulk, n2p = nastran("bulk"), nastran("n2p")
     table = bulk.bulk2uset(StringIO(text))[0]
     first = table.iloc[::6]
     motions = n2p.rbgeom_uset(table, [0.0, 0.0, 0.0]).reshape(-1, 6, 6)
-    return Points(
+    return FileNodes(
         numbers=first.index.get_level_values("id").to_numpy(np.int64),
         places=first[["x", "y", "z"]].to_numpy(float),
         frames=motions[:, :3, :3],
     )
 
 
-def _abaqus(path: Path, *, where: str) -> Points:
+def _abaqus(path: Path, *, where: str) -> FileNodes:
     try:
         numbers, places, sets = read_nodes(path)
     except (ValueError, IndexError, KeyError, OSError) as error:
         raise unreadable(path, error, where=where) from error
     if not len(numbers):
         raise InputError(f"{path} has no *NODE block.", where=where, value=str(path))
-    return Points(numbers=numbers, places=places, sets=sets)
+    return FileNodes(numbers=numbers, places=places, sets=sets)
 
 
-def _ansys(path: Path, *, where: str) -> Points:
+def _ansys(path: Path, *, where: str) -> FileNodes:
     from flexcage.mesh.files.ansys import read_archive, refuse_commands
     from flexcage.mesh.files.nblock import nodes_of, refuse_turned
 
@@ -151,10 +151,10 @@ def _ansys(path: Path, *, where: str) -> Points:
     except Refused as error:
         raise unreadable(path, error, where=where) from error
     sets = {str(n).lower(): np.asarray(v) for n, v in archive.node_components.items()}
-    return Points(numbers=numbers, places=places, sets=sets)
+    return FileNodes(numbers=numbers, places=places, sets=sets)
 
 
-_READERS: dict[str, Callable[..., Points | None]] = {
+_READERS: dict[str, Callable[..., FileNodes | None]] = {
     ".bdf": read_grids, ".dat": read_grids, ".nas": read_grids, ".asm": read_grids,
     ".pch": read_grids,
     ".inp": _abaqus, ".cdb": _ansys,

@@ -12,8 +12,8 @@ from flexcage.core.units import typeset
 from flexcage.geometry.cage import Cage
 from flexcage.mesh.quality import MeshReport
 from flexcage.modes.basis import ModeBasis
-from flexcage.results.figures.figure import FLEXIBLE, Found, Table
-from flexcage.results.row import Row
+from flexcage.results.figures.figure import FLEXIBLE, FigureTable, Found
+from flexcage.results.row import SummaryRow
 from flexcage.system.bodies import unbalance_of
 
 _CUT = "of a push's deflection of its own pocket, what others would feel of it beyond the modes"
@@ -21,7 +21,7 @@ _CUT = "of a push's deflection of its own pocket, what others would feel of it b
 _FAR = f"{_CUT}; changes an N1013's pinch forces by under 0.5 %"
 
 
-SUPPORT = Table[str]("Support")
+SUPPORT = FigureTable[str]("Support")
 SUPPORT.add(
     "inner_held", "Support of the inner ring", "", "what holds the ring", "text",
     take=lambda held: held,
@@ -81,17 +81,17 @@ def _far(facts: CageFacts) -> Found | None:
 
 
 # fmt: off
-CAGE = Table[CageFacts]("Cage")
+CAGE = FigureTable[CageFacts]("Cage")
 CAGE.add("cage_mass", "Cage mass", "g", "with the mass that unbalances it", "convergence",
          take=lambda facts: Found(facts.mass[0], facts.mass[2]))
 CAGE.add("cage_centre_shift", "Cage mass centre, shift", "um", "from the axis of the sound cage",
          take=lambda facts: float(np.linalg.norm(facts.mass[1])))
 CAGE.add("cage_modulus", "Cage modulus, warm", "GPa", "of a case with a cage.temperature",
          take=_warm)
-PINCH = Table[CageFacts](CAGE.section)
+PINCH = FigureTable[CageFacts](CAGE.section)
 PINCH.add("pinch_force", "Pinch force at the start", "N",
           "of elements that a deformed pocket squeezes when assembled", "convergence", take=_pinch)
-MODES = Table[CageFacts](CAGE.section, "flexible cage")
+MODES = FigureTable[CageFacts](CAGE.section, "flexible cage")
 MODES.add("mode_count", "Cage modes", "", "number of modal coordinates",
           take=lambda facts: Found(facts.modes.size, f"table: {facts.table}"))
 MODES.add("first_frequency", "Cage modes, first frequency", "Hz", "of the free cage",
@@ -100,7 +100,7 @@ MODES.add("far_coupling", "Pockets' local coupling cut", "%", _CUT, take=_far)
 # fmt: on
 
 
-def cage_rows(facts: CageFacts) -> tuple[Row, ...]:
+def cage_rows(facts: CageFacts) -> tuple[SummaryRow, ...]:
     """The section of the cage."""
     modes = MODES.rows(facts, FLEXIBLE if facts.basis is None else "")
     return (*CAGE.rows(facts), *modes, *PINCH.rows(facts))

@@ -6,7 +6,7 @@ from functools import partial
 from math import isfinite
 
 from flexcage.core.timing import Stages
-from flexcage.results.figures.figure import Found, Mark, Table
+from flexcage.results.figures.figure import FigureTable, Found, Mark
 from flexcage.solve.contract import Effort
 
 _LEAST_STEP = "least over the run, by the spectral radius"
@@ -34,7 +34,7 @@ _COUNTS: tuple[tuple[str, str, str, *tuple[Mark, ...]], ...] = (
     ("repeated_blocks", "Blocks done again",
      "with a tenth of the tolerance or less, as their energy did not balance", "effort", "rare"),
 )  # fmt: skip
-SOLVER = Table[Effort]("Solver")
+SOLVER = FigureTable[Effort]("Solver")
 for _key, _title, _meaning, *_marks in _COUNTS:
     SOLVER.add(_key, _title, "", _meaning, *_marks, take=partial(_count, _key, "rare" in _marks))
 SOLVER.add(
@@ -48,13 +48,13 @@ def _wall(stage: str, stages: Stages) -> Found | None:
     return Found(stages[stage], idle=stages[stage] < _NO_TIME)
 
 
-def add_wall(table: Table[Stages], stage: str, *marks: Mark) -> None:
+def add_wall(table: FigureTable[Stages], stage: str, *marks: Mark) -> None:
     """Add the wall time of a stage."""
     title = f"Wall time, {stage.replace('_', ' ')}"
     table.add(f"wall_{stage}", title, "s", "of this stage", *marks, take=partial(_wall, stage))
 
 
-TIMES = Table[Stages]("Wall time")
+TIMES = FigureTable[Stages]("Wall time")
 for _stage in ("mesh", "modes", "kernels", "start"):
     add_wall(TIMES, _stage)
 add_wall(TIMES, "solve", "effort")

@@ -6,15 +6,15 @@ from functools import partial
 from math import isfinite
 
 from flexcage.results.audit import EXCEEDED, OF_CAGE, OF_DRIVE, PASSED, UNJUDGED
-from flexcage.results.figures.figure import Found, Table
-from flexcage.results.figures.part import Part
+from flexcage.results.figures.figure import FigureTable, Found
+from flexcage.results.figures.part import SettledRun
 from flexcage.system.data import POWERS
 
 _KINDS = {"kinetic": "motion", "strain": "the cage's modes", "contact": "contacts",
           "mount": "shaft and housing springs"}  # fmt: skip
 
 
-def _verdict(part: Part) -> Found:
+def _verdict(part: SettledRun) -> Found:
     bounds = f"at most {100.0 * OF_DRIVE:g} % of the drive's work"
     if part.caged:
         bounds += f", {100.0 * OF_CAGE:g} % of the cage's losses"
@@ -26,20 +26,20 @@ def _verdict(part: Part) -> Found:
     return Found(part.audit.verdict, note[part.audit.verdict])
 
 
-def _stored(kind: str, part: Part) -> Found | None:
+def _stored(kind: str, part: SettledRun) -> Found | None:
     if kind not in part.audit.stored:
         return None
     idle = not part.run["energy"].sel(energy_kind=kind).values.any()
     return Found(part.audit.stored[kind], "whole run", idle=idle)
 
 
-def _of_cage(part: Part) -> Found:
+def _of_cage(part: SettledRun) -> Found:
     lacking = "" if isfinite(part.audit.of_cage) else ": too little"
     note = f"what pockets, lands and modes dissipate{lacking}"
     return Found(part.audit.of_cage, note, idle=not part.caged)
 
 
-def _work(channel: str, part: Part) -> Found | None:
+def _work(channel: str, part: SettledRun) -> Found | None:
     if channel not in part.audit.channels:
         return None
     idle = not part.run["work"].sel(channel=channel).values.any()
@@ -48,7 +48,7 @@ def _work(channel: str, part: Part) -> Found | None:
 
 # fmt: off
 #: Of runs that record energy and work.
-ENERGY = Table[Part]("Energy")
+ENERGY = FigureTable[SettledRun]("Energy")
 ENERGY.add("energy_audit", "Energy audit", "", "passed, exceeded or not judged",
            "text", "brief", "large", "effort", take=_verdict)
 for _kind, _what in _KINDS.items():

@@ -1,6 +1,6 @@
 """What a figure of a run is: one row of a table, with the function that takes it from a run.
 
-A section of a summary is a ``Table``; one call adds a figure::
+A section of a summary is a ``FigureTable``; one call adds a figure::
 
     SPEEDS.add("tilt_max", "Cage tilt, largest", "deg", "largest such angle", "a cage",
                take=lambda part: float(part.lean.max()))
@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Any, Final, Generic, Literal, TypeVar, get_args
 
-from flexcage.results.row import Row, Value
+from flexcage.results.row import SummaryRow, Value
 from flexcage.results.statistics import Record
 
 #: What a run must have or compute for a figure.
@@ -104,7 +104,7 @@ class Figure:
         """What it is a mean or a peak of: its title up to a comma, as part of a sentence."""
         return self.title.partition(",")[0].lower()
 
-    def row(self, given: Given, **words: str) -> Row:
+    def row(self, given: Given, **words: str) -> SummaryRow:
         """The row of a value in a run's summary, with the words of its title."""
         found = given if isinstance(given, Found) else Found(given)
         record = found.value if isinstance(found.value, Record) else found.record
@@ -113,10 +113,12 @@ class Figure:
         if record is not None and isinstance(value, float) and isfinite(value):
             margin = record.margin if isfinite(record.margin) else None
         label = self.titled(**words)
-        return Row(self.key, label, value, self.shown, found.note, margin, record, found.idle)
+        return SummaryRow(
+            self.key, label, value, self.shown, found.note, margin, record, found.idle
+        )
 
 
-class Table(Generic[F]):
+class FigureTable(Generic[F]):
     """The figures of a section of a summary, in order, and what each needs if it does not say."""
 
     def __init__(self, section: str, needs: Need | Literal[""] = "") -> None:
@@ -132,14 +134,16 @@ class Table(Generic[F]):
         kept = frozenset[str](marks) - NEEDS
         self.figures[key] = Figure(key, pattern, shown, meaning, self.section, take, needs, kept)
 
-    def rows(self, facts: F, lacks: str = "", words: Mapping[str, str] = {}) -> tuple[Row, ...]:
+    def rows(
+        self, facts: F, lacks: str = "", words: Mapping[str, str] = {}
+    ) -> tuple[SummaryRow, ...]:
         """Rows of a run's figures, as ``rows_of`` has them."""
         return rows_of(self.figures.values(), facts, lacks, words)
 
 
 def rows_of(
     figures: Iterable[Figure], facts: Any, lacks: str = "", words: Mapping[str, str] = {}
-) -> tuple[Row, ...]:
+) -> tuple[SummaryRow, ...]:
     """Rows of those figures that a run has, which lacks what some need; ``words`` are its
     ``WORDS``."""
     given = ((f, f.take(facts)) for f in figures if not f.needs or f.needs != lacks)

@@ -10,8 +10,8 @@ import numpy as np
 
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.film import Oil
-from flexcage.results.figures.figure import Found, Table
-from flexcage.results.figures.part import Part
+from flexcage.results.figures.figure import FigureTable, Found
+from flexcage.results.figures.part import SettledRun
 from flexcage.results.film import film_thickness
 from flexcage.results.slip import loaded_zone
 
@@ -20,7 +20,7 @@ from flexcage.results.slip import loaded_zone
 class Lubricated:
     """A part of a run, with the bearing and the oil that make its films."""
 
-    part: Part
+    part: SettledRun
     bearing: Bearing
     oil: Oil
 
@@ -47,7 +47,7 @@ def _least(race: str, facts: Lubricated) -> float | None:
 
 
 # fmt: off
-FILM = Table[Lubricated]("Lubricant's film")
+FILM = FigureTable[Lubricated]("Lubricant's film")
 for _race in ("inner", "outer"):
     FILM.add(f"film_{_race}", f"Film, {_race} race, mean", "um",
              "middle of loaded elements' contacts; isothermal, fully flooded",

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from flexcage.results.contact_activity import EVENTS
-from flexcage.results.figures.figure import Found, Table
-from flexcage.results.figures.part import Part
+from flexcage.results.figures.figure import FigureTable, Found
+from flexcage.results.figures.part import SettledRun
 from flexcage.results.metrics import TOUCHING
 
 
-def _peak(part: Part) -> Found:
+def _peak(part: SettledRun) -> Found:
     pocket = part.pockets
     face = f", {pocket.peak_face}" if part.ds.sizes["face"] > 1 else ""
     where = f"pocket {pocket.peak_pocket}{face}, t = {pocket.peak_time * 1e3:.3f} ms"
@@ -18,7 +18,7 @@ def _peak(part: Part) -> Found:
 
 
 # fmt: off
-FORCES = Table[Part]("Forces")
+FORCES = FigureTable[SettledRun]("Forces")
 FORCES.add("pocket_force_mean", "Pocket force, mean", "N", "of a pocket's face while in contact",
            "a cage", "statistic", "brief", "large", "settling", "convergence",
            take=lambda part: Found(part.windows.ratio(*part.pocket_series[:2]),
@@ -43,7 +43,7 @@ FORCES.add("race_force_outer", "Outer race on an element, peak", "N", "largest n
 # fmt: on
 
 
-def _frequency(part: Part) -> Found:
+def _frequency(part: SettledRun) -> Found:
     source = "to a step of the solver"
     if part.contacts.source != EVENTS:
         source = f"at samples, {part.rate}, that miss shorter ones"
@@ -52,7 +52,7 @@ def _frequency(part: Part) -> Found:
 
 
 # fmt: off
-CONTACTS = Table[Part]("Contacts of the cage", "a cage")
+CONTACTS = FigureTable[SettledRun]("Contacts of the cage", "a cage")
 CONTACTS.add("contact_frequency", "Contacts begun, mean of a pocket", "Hz",
              "contacts with elements begun in a second; every face counts", "statistic",
              take=_frequency)
@@ -66,13 +66,13 @@ CONTACTS.add("free_flight_share", "Free flight", "%",
 # fmt: on
 
 
-def _next_mean(part: Part) -> Found:
+def _next_mean(part: SettledRun) -> Found:
     touching = part.neighbours > TOUCHING
     summed = np.where(touching, part.neighbours, 0.0).sum(axis=1)
     return Found(part.windows.ratio(summed, touching.sum(axis=1)), "while in contact")
 
 
-def _next_peak(part: Part) -> Found:
+def _next_peak(part: SettledRun) -> Found:
     force = part.neighbours
     sample, element = np.unravel_index(int(np.argmax(force)), force.shape)
     time = float(part.ds["time"][sample]) * 1e3
@@ -80,7 +80,7 @@ def _next_peak(part: Part) -> Found:
     return Found(float(force.max()), where if force.any() else "none touches")
 
 
-def _gaps(part: Part) -> np.ndarray:
+def _gaps(part: SettledRun) -> np.ndarray:
     """How far (time, element) [m] the next element is from every one, along the pitch circle; below
     zero by what two are pressed together."""
     psi = part.ds["element_position"].sel(cyl="psi").transpose("time", "element").values
@@ -89,7 +89,7 @@ def _gaps(part: Part) -> np.ndarray:
     return np.asarray(half * (ahead - 2.0 * np.arcsin(0.5 * part.bearing.element_diameter / half)))
 
 
-def _touches(part: Part) -> Found:
+def _touches(part: SettledRun) -> Found:
     if part.events is None:
         closed = part.neighbours > 0.0
         count = int((closed[1:] & ~closed[:-1]).sum())
@@ -103,7 +103,7 @@ def _touches(part: Part) -> Found:
 
 # fmt: off
 #: Of runs whose elements may touch each other.
-NEXT = Table[Part]("Contacts of neighbours")
+NEXT = FigureTable[SettledRun]("Contacts of neighbours")
 NEXT.add("neighbour_force_mean", "Force on the next {element}, mean", "N",
          "of an element while it touches the next one",
          "full complement", "statistic", "brief", "large", "settling", "convergence",

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from flexcage.results.figures.figure import Found, Table
-from flexcage.results.figures.part import Part
+from flexcage.results.figures.figure import FigureTable, Found
+from flexcage.results.figures.part import SettledRun
 from flexcage.results.metrics import velocity_deviation
 
 LOW_PASS = 2e3  # Hz, of the second deviation of the cage centre's speed
 
 # fmt: off
-MOTION = Table[Part]("Cage motion", "a cage")
+MOTION = FigureTable[SettledRun]("Cage motion", "a cage")
 MOTION.add("whirl_radius", "Whirl radius, mean", "um",
            "distance of the centre from its mean place",
            "statistic", "large", "settling", "convergence",

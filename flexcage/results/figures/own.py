@@ -26,9 +26,9 @@ from flexcage.results.figures.figure import (
     Found,
     Given,
 )
-from flexcage.results.figures.part import Part
+from flexcage.results.figures.part import SettledRun
 from flexcage.results.figures.table import FIGURES
-from flexcage.results.row import Row, check_shown
+from flexcage.results.row import SummaryRow, check_shown
 from flexcage.results.statistics import Record
 from flexcage.results.summary import Summary
 
@@ -40,12 +40,12 @@ _NEEDS, _MARKS = (CAGED, FULL), (SIZE, STATISTIC, BRIEF, LARGE, SETTLING, CONVER
 
 
 def register_figure(
-    key: str, take: Callable[[Part], float | Record | Found | None], *, title: str, unit: str,
+    key: str, take: Callable[[SettledRun], float | Record | Found | None], *, title: str, unit: str,
     meaning: str, marks: Collection[str] = (),
 ) -> None:  # fmt: skip
     """Add a figure: summaries of all runs have it, with pages, comparisons and studies.
 
-    ``take(part)`` gives its value in SI by the settled part of a run (``figures.part.Part``:
+    ``take(part)`` gives its value in SI by the settled part of a run (``figures.part.SettledRun``:
     ``part.ds`` is its dataset): a number, a statistic of ``part.windows``, which has an interval,
     or None where a run has none. ``unit`` is the unit that it is shown in, "" for none. ``marks``
     say more: it needs "a cage" or a "full complement"; it is a "size", never below zero, or a
@@ -100,7 +100,7 @@ def own_figures() -> Mapping[str, Figure]:
     return FIGURES.added
 
 
-def own_rows(part: Part) -> tuple[Row, ...]:
+def own_rows(part: SettledRun) -> tuple[SummaryRow, ...]:
     """Their rows; the note of one without a value says why."""
     return tuple(
         figure.row(_given(figure, part), **part.words)
@@ -109,7 +109,7 @@ def own_rows(part: Part) -> tuple[Row, ...]:
     )
 
 
-def _given(figure: Figure, part: Part) -> Given:
+def _given(figure: Figure, part: SettledRun) -> Given:
     """What a user's function gives, as a value that a row may have."""
     try:
         given = figure.take(part)
@@ -143,7 +143,7 @@ def own_warnings(summary: Summary) -> tuple[RunWarning, ...]:
     )
 
 
-def with_own(summary: Summary, part: Callable[[], Part]) -> Summary:
+def with_own(summary: Summary, part: Callable[[], SettledRun]) -> Summary:
     """A stored summary with the figures that users' files have added since, and all of theirs
     anew."""
     if not own_figures():

@@ -13,12 +13,12 @@ from flexcage.core.errors import InputError
 from flexcage.results import metrics
 from flexcage.results.audit import EnergyAudit, energy_audit
 from flexcage.results.contact_activity import ContactSeries, contact_series
-from flexcage.results.figures.figure import CAGED, FULL, Figure, Table
+from flexcage.results.figures.figure import CAGED, FULL, Figure, FigureTable
 from flexcage.results.registry import NEIGHBOURS
 from flexcage.results.slip import (
     BallRolling,
     BearingNumbers,
-    CageSpeed,
+    MeanSpeed,
     SlipRange,
     at_own_angles,
     element_slip_ratio,
@@ -39,7 +39,7 @@ class OwnFigures:
     close their sections; how the section of its elements' ``slip`` is called, and which figures
     stand there in which order; and what the note on their ``sliding`` says."""
 
-    tables: tuple[Table[Any], ...]
+    tables: tuple[FigureTable[Any], ...]
     slip_title: str
     slip: tuple[str, ...]
     sliding: str
@@ -51,7 +51,7 @@ class OwnFigures:
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class SettledRun:
     """A run, whose first ``settle`` of its duration figures leave out, and its bearing.
 
     ``events`` are the run's contacts that closed or opened; without them contacts are counted at
@@ -134,7 +134,7 @@ class Part:
         return float(self.ds["inner_speed"].mean())
 
     @cached_property
-    def speed(self) -> CageSpeed:
+    def speed(self) -> MeanSpeed:
         """Mean speed of the cage over whole turns, or without one of the elements' orbits."""
         return speed_over(self.whole, self.own)
 

@@ -7,17 +7,17 @@ from functools import partial
 
 import numpy as np
 
-from flexcage.results.figures.figure import Figure, Found, Table
-from flexcage.results.figures.part import Part
+from flexcage.results.figures.figure import Figure, FigureTable, Found
+from flexcage.results.figures.part import SettledRun
 from flexcage.results.metrics import tilt
-from flexcage.results.row import Row
+from flexcage.results.row import SummaryRow
 from flexcage.system.layout import CONSTRAINTS
 
 TORQUE = "power over speed; seals, grease and elastic hysteresis of rolling are not counted"
 LEAST = 1e-3  # [N, N m] reactions that never pass it are rounding
 
 
-def _torque(part: Part) -> Found | None:
+def _torque(part: SettledRun) -> Found | None:
     speed = part.ds["inner_speed"].values
     if part.drive is None or not speed.any():
         return None if part.drive is None else Found(None, "the ring stands")
@@ -29,17 +29,17 @@ def _towards(y: np.ndarray, z: np.ndarray) -> str:
     return f"towards {np.degrees(np.arctan2(z.mean(), y.mean())):.1f} deg from y to z"
 
 
-def _away(part: Part) -> Found:
+def _away(part: SettledRun) -> Found:
     _, y, z = part.of_axes("inner_position")
     return Found(float(np.hypot(y.mean(), z.mean())), f"of the mean place, {_towards(y, z)}")
 
 
-def _axial(part: Part) -> Found:
+def _axial(part: SettledRun) -> Found:
     along = part.of_axes("inner_position")[0]
     return Found(part.windows.mean(along), idle=not along.any())
 
 
-def _tilt(part: Part) -> Found:
+def _tilt(part: SettledRun) -> Found:
     lean = tilt(part.ds, body="inner")
     total, *parts = (lean.sel(component=c).values for c in lean["component"].values)
     up, aside = (f"{1e3 * float(part.mean()):.4g}" for part in parts)
@@ -47,7 +47,7 @@ def _tilt(part: Part) -> Found:
     return Found(part.windows.mean(total), note, idle=not total.any())
 
 
-def _reaction(key: str, part: Part) -> Found:
+def _reaction(key: str, part: SettledRun) -> Found:
     force = part.ds["multiplier"].sel(constraint=key).values
     if np.abs(force).max() <= LEAST:
         force = 0.0 * force
@@ -56,7 +56,7 @@ def _reaction(key: str, part: Part) -> Found:
 
 
 # fmt: off
-INNER = Table[Part]("Inner ring")
+INNER = FigureTable[SettledRun]("Inner ring")
 INNER.add("drive_power", "Drive power", "W", "mean", "signed", "statistic",
           take=lambda part: None if part.drive is None else part.windows.mean(part.drive))
 INNER.add("drive_torque", "Drive torque", "N mm", "mean power over mean speed",
@@ -75,24 +75,24 @@ for _key, _title, _unit in (("axial_force", "axial reaction", "N"),
 # fmt: on
 
 
-def _across(part: Part) -> Found:
+def _across(part: SettledRun) -> Found:
     _, y, z = part.of_axes("outer_force")
     return Found(part.windows.mean(np.hypot(y, z)), f"on average {_towards(y, z)}")
 
 
-def _outer_away(part: Part) -> Found:
+def _outer_away(part: SettledRun) -> Found:
     _, y, z = part.of_axes("outer_position")
     return Found(float(np.hypot(y.mean(), z.mean())), idle=not (y.any() or z.any()))
 
 
-def _outer_tilt(part: Part) -> Found:
+def _outer_tilt(part: SettledRun) -> Found:
     lean = tilt(part.ds, body="outer").sel(component="total").values
     return Found(part.windows.mean(lean), idle=not lean.any())
 
 
 # fmt: off
 #: Of runs that record what presses the outer ring.
-OUTER = Table[Part]("Outer ring")
+OUTER = FigureTable[SettledRun]("Outer ring")
 OUTER.add("outer_force_radial", "Outer ring, force across the axis", "N",
           "mean size of what all contacts press it with", "statistic", take=_across)
 OUTER.add("outer_force_axial", "Outer ring, force along the axis", "N", "mean",
@@ -108,7 +108,7 @@ OUTER.add("outer_tilt", "Outer ring, tilt", "mrad", "mean angle of its axis, lik
 # fmt: on
 
 
-def constraint_rows(part: Part) -> list[Row]:
+def constraint_rows(part: SettledRun) -> list[SummaryRow]:
     """Means of what the constraints beyond drive and load bear, which a case names."""
     rows = []
     for name in (str(name) for name in part.ds["constraint"].values if name not in CONSTRAINTS):

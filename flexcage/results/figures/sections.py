@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from typing import Any
 
 from flexcage.results.figures.energy import ENERGY
-from flexcage.results.figures.figure import SETTLING, Figure, Table, rows_of
+from flexcage.results.figures.figure import SETTLING, Figure, FigureTable, rows_of
 from flexcage.results.figures.forces import CONTACTS, FORCES, NEXT
 from flexcage.results.figures.motion import MOTION
 from flexcage.results.figures.own import SECTION, own_rows
-from flexcage.results.figures.part import Part
+from flexcage.results.figures.part import SettledRun
 from flexcage.results.figures.rings import INNER, OUTER, constraint_rows
 from flexcage.results.figures.speeds import SPEEDS, STATISTICS, Taken
 from flexcage.results.figures.table import FIGURES
@@ -18,7 +18,7 @@ from flexcage.results.registry import NEIGHBOURS
 from flexcage.results.summary import Section, Summary
 
 
-def summarise(part: Part) -> Summary:
+def summarise(part: SettledRun) -> Summary:
     """Summary of a run's motion and forces after its start; stress, solver and times come from
     those who know them, by :meth:`Summary.with_figures`."""
     sections = [section for section in _sections(part) if section.rows]
@@ -32,10 +32,10 @@ def summarise(part: Part) -> Summary:
     return Summary((first, *sections))
 
 
-def _sections(part: Part) -> Iterator[Section]:
+def _sections(part: SettledRun) -> Iterator[Section]:
     own, facts = part.of_family, (part, part.lacks, part.words)
 
-    def of(table: Table[Part]) -> Section:
+    def of(table: FigureTable[SettledRun]) -> Section:
         """A section, which the family's own figures close."""
         added = [figure for figure in own.figures.values() if figure.section == table.section]
         return Section(table.section, (*table.rows(*facts), *rows_of(added, *facts)))

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from math import isfinite
 
 from flexcage.results.bootstrap import FEWEST
-from flexcage.results.figures.figure import Figure, Found, Table
-from flexcage.results.figures.part import Part
+from flexcage.results.figures.figure import Figure, FigureTable, Found
+from flexcage.results.figures.part import SettledRun
 from flexcage.results.statistics import Record
 
 JOINT = 1.25  # times its margin a drift must be, for that three figures err together in 5 % of runs
@@ -21,7 +21,7 @@ class Taken:
     """A part of a run, and of its figures those that show whether it has settled, with their
     records."""
 
-    part: Part
+    part: SettledRun
     watched: Mapping[Figure, Record]
 
 
@@ -51,7 +51,7 @@ def _drift(taken: Taken) -> Found:
 
 
 # fmt: off
-STATISTICS = Table[Taken]("Statistics")
+STATISTICS = FigureTable[Taken]("Statistics")
 STATISTICS.add("settled_at", "Settled from", "ms",
                "end of the share that output.settle leaves out", take=_settled_at)
 STATISTICS.add("settled_time", "Time in statistics", "ms", "length of the settled part",
@@ -64,12 +64,12 @@ STATISTICS.add("drift", "Still drifting", "",
 # fmt: on
 
 
-def _speed(turns: str, part: Part) -> Found:
+def _speed(turns: str, part: SettledRun) -> Found:
     whole = f"mean of {part.speed.revolutions:.2f} {turns}"
     return Found(part.speed.mean, whole, part.whole_windows.mean(part.omega))
 
 
-def _slip(part: Part) -> Found:
+def _slip(part: SettledRun) -> Found:
     curved = ""
     if part.rolling is not None:
         curved = f"the grooves' curvature alone makes {100.0 * part.rolling.cage_slip:.2g} %"
@@ -77,7 +77,7 @@ def _slip(part: Part) -> Found:
 
 
 # fmt: off
-SPEEDS = Table[Part]("Speeds")
+SPEEDS = FigureTable[SettledRun]("Speeds")
 SPEEDS.add("inner_speed", "Inner ring speed", "rpm", "mean", "signed",
            take=lambda part: part.inner_speed)
 SPEEDS.add("cage_speed", "Cage speed", "rpm", "mean over whole turns of the cage",
@@ -103,18 +103,18 @@ SPEEDS.add("orbital_slip_ratio", "{Element}s' orbital slip ratio", "%",
 # fmt: on
 
 
-def _loaded(part: Part) -> Found:
+def _loaded(part: SettledRun) -> Found:
     loaded, curved = part.element_slip[0], part.rolling.sliding if part.rolling else ()
     return Found(loaded, part.slip_range.note(loaded.value, part.sliding_loaded, curved))
 
 
-def _unloaded(part: Part) -> Found:
+def _unloaded(part: SettledRun) -> Found:
     unloaded = part.element_slip[1]
     return Found(unloaded, part.slip_range.note(unloaded.value, part.sliding_unloaded))
 
 
 # fmt: off
-SLIP = Table[Part]("Slip")
+SLIP = FigureTable[SettledRun]("Slip")
 SLIP.add("slip_loaded", "Slip ratio, loaded elements", "%",
          "mean over elements that bear more than 1 % of the largest inner race force",
          "signed", "statistic", "brief", "convergence", take=_loaded)

@@ -15,9 +15,9 @@ import numpy as np
 
 from flexcage.core.timing import Stages
 from flexcage.results.figures.effort import add_wall
-from flexcage.results.figures.figure import Found, Table
+from flexcage.results.figures.figure import FigureTable, Found
 from flexcage.results.figures.part import pass_peak
-from flexcage.results.row import Row
+from flexcage.results.row import SummaryRow
 from flexcage.results.statistics import Record, Windows
 
 
@@ -46,7 +46,7 @@ def _root(s: Stressed) -> Found:
 
 
 # fmt: off
-STRESS = Table[Stressed]("Equivalent stress", "flexible cage")
+STRESS = FigureTable[Stressed]("Equivalent stress", "flexible cage")
 STRESS.add("stress_peak", "Peak stress, {walls} excluded", "MPa",
            "of the settled part, without the walls of pockets that contacts press on",
            "brief", "large",
@@ -63,12 +63,12 @@ STRESS.add("stress_root", "Stress at {place}, largest", "MPa", "at pocket corner
 STRESS.add("stress_start", "Stress before settling, largest", "MPa",
            "largest of the part left out", take=lambda s: s.start)
 #: Wall time of these figures.
-STRESS_TIME = Table[Stages](STRESS.section, "flexible cage")
+STRESS_TIME = FigureTable[Stages](STRESS.section, "flexible cage")
 add_wall(STRESS_TIME, "stress", "effort")
 # fmt: on
 
 
-def stress_rows(s: Stressed) -> tuple[Row, ...]:
+def stress_rows(s: Stressed) -> tuple[SummaryRow, ...]:
     """The section of the stress."""
     return STRESS.rows(s, words={"walls": s.kind.walls, "place": f"a {s.kind.one}"})
 
@@ -81,14 +81,14 @@ def _rivet(name: str, note: str, rivets: Any) -> Found:
 _ALONE = "; of a shank that bears all that goes from half to half, without its head's clamping"
 
 # fmt: off
-RIVETS = Table[Any]("Rivets", "riveted cage")
+RIVETS = FigureTable[Any]("Rivets", "riveted cage")
 for _name, _title, _unit, _meaning, _note in (
     ("tension", "Rivet tension, largest", "N", "of a rivet", ""),
     ("shear", "Rivet shear, largest", "N", "of a rivet", ""),
     ("stress", "Rivet stress, largest nominal", "MPa", "of a shank that bears all alone", _ALONE),
 ):
     RIVETS.add(f"rivet_{_name}", _title, _unit, _meaning, take=partial(_rivet, _name, _note))
-RIVETS_TIME = Table[Stages](RIVETS.section, "riveted cage")
+RIVETS_TIME = FigureTable[Stages](RIVETS.section, "riveted cage")
 add_wall(RIVETS_TIME, "rivets")
 # fmt: on
 
@@ -102,11 +102,11 @@ def _life(damage: Record) -> Found:
 
 
 # fmt: off
-DAMAGE = Table[Record]("Fatigue", "fatigue")
+DAMAGE = FigureTable[Record]("Fatigue", "fatigue")
 DAMAGE.add("fatigue_damage_rate", "Fatigue damage rate", "1/h", "at the worst named place",
            "statistic", take=lambda damage: damage)
 DAMAGE.add("fatigue_life", "Fatigue life", "h", "its inverse", "statistic", take=_life)
-TRACKS = Table[Any]("Wear", "wear")
+TRACKS = FigureTable[Any]("Wear", "wear")
 TRACKS.add("wear_volume_rate", "Wear, volume", "mm^3/h", "of all pockets",
            take=lambda wear: wear.volume_rate)
 TRACKS.add("wear_depth_rate", "Wear, depth", "um/h", "of the deepest track, at first",

@@ -27,7 +27,7 @@ from flexcage.geometry.ring import (
     RingSection,
     SectionsOf,
 )
-from flexcage.modes.ring import Held, RingReduction, reduce_ring, spectrum, strip
+from flexcage.modes.ring import RingReduction, RingSeat, reduce_ring, spectrum, strip
 from flexcage.system.statics.elements import ElementLoads
 from flexcage.system.statics.equilibrium import Bending, Posture, Problem, balance
 
@@ -306,7 +306,7 @@ def _pressed(loads: ElementLoads, side: int, heavier: float) -> tuple[float, flo
 def _seated(
     name: str, spec: FlexibleRing, section: RingSection, material: Any, azimuth: np.ndarray
 ) -> SeatedRing:
-    held = Held(
+    held = RingSeat(
         rigidly=spec.seat == "rigid",
         foundation=spec.foundation if spec.seat == "foundation" else 0.0,
     )
