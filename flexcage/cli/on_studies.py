@@ -56,10 +56,6 @@ def add_commands(commands: Any) -> None:
     )
     surface.add_argument("--highest", action="store_true", help="look for the highest value")
     surface.add_argument("--model", choices=("quadratic", "kriging"), help="default: both")
-    surface.add_argument(
-        "--matters", type=_percent, metavar="P%", default=0.05,
-        help="least range of interest, of the mean (default: 5%%)",
-    )  # fmt: skip
 
 
 def _other_version(parser: Any) -> None:
@@ -67,13 +63,6 @@ def _other_version(parser: Any) -> None:
         "--other-version", action="store_true",
         help="add to cases that a flexcage of other physics computed",
     )  # fmt: skip
-
-
-def _percent(text: str) -> float:
-    try:
-        return float(text.removesuffix("%")) / (100.0 if text.endswith("%") else 1.0)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"'{text}' should be a percentage, as 5%") from None
 
 
 def study_run_command(args: argparse.Namespace) -> int:
@@ -162,7 +151,7 @@ def study_surface_command(args: argparse.Namespace) -> int:
     surface = response_surface(
         StudyResults(args.dir), args.output, where=chosen, highest=args.highest,
         axes=[path.strip() for path in args.axes.split(",")] if args.axes else (),
-        models=(args.model,) if args.model else MODELS, matters=args.matters,
+        models=(args.model,) if args.model else MODELS,
     )  # fmt: skip
     say(surface.report())
     for path in surface.write(args.dir):

@@ -31,8 +31,8 @@ class NormalLaw:
 
     ``restitution``: F = K d^n (1 + (lambda/v0) d'), lambda from the exact relation to e, v0 the
     approach speed at the contact's onset (not below ``speed_floor``); ``impact_step``:
-    F = K d^n + STEP(d, 0, 0, full_damping_depth, damping) d' (ADAMS IMPACT, papers 000 and
-    003); ``elastic``: no damping. Forces are clipped at zero.
+    F = K d^n + STEP(d, 0, 0, full_damping_depth, damping) d' (ADAMS IMPACT); ``elastic``: no
+    damping. Forces are clipped at zero.
     """
 
     law: str = option("restitution", doc="name of the law", choices=NORMAL_LAWS)
@@ -55,6 +55,63 @@ class NormalLaw:
         1.0, doc="multiplies the computed stiffness (studies)", minimum=1e-6, maximum=1e6
     )
 
+    def elastic(self, stiffness: float, exponent: float) -> tuple[float, float]:
+        """Stiffness [N/m^exponent] and exponent of a whole contact's elastic force, from those that
+        geometry and materials make."""
+        return stiffness, exponent
+
+
+@dataclass(frozen=True, kw_only=True)
+class OwnImpact(NormalLaw):
+    """``impact_step`` with a stiffness and an exponent of one's own, as ADAMS' IMPACT takes them:
+
+    F = K d0 (d/d0)^exponent with d0 = 1 mm, so K in N/mm is ADAMS' number in its units of N and mm.
+    """
+
+    law: str = option("impact", doc="name of the law", choices=NORMAL_LAWS)
+    stiffness: float = quantity(
+        "N/mm", 1e8, doc="force over penetration at a penetration of 1 mm", above=0.0,
+        assumption="1e5 N/mm, ADAMS's default of IMPACT",
+    )  # fmt: skip
+    exponent: float = option(
+        2.2, doc="exponent of the elastic force", minimum=1.0, maximum=4.0,
+        assumption="ADAMS's default of IMPACT",
+    )  # fmt: skip
+    damping: float = quantity(
+        "N*s/m", 1e4, doc="full damping", minimum=0.0, assumption="ADAMS's default of IMPACT"
+    )
+    full_damping_depth: float = quantity(
+        "mm", 1e-4, doc="depth of full damping", above=0.0,
+        assumption="0.1 mm, ADAMS's default of IMPACT",
+    )  # fmt: skip
+
+    def elastic(self, stiffness: float, exponent: float) -> tuple[float, float]:
+        """The law's own numbers in place of the computed ones."""
+        return self.stiffness * _ONE_MM ** (1.0 - self.exponent), self.exponent
+
+
+@dataclass(frozen=True, kw_only=True)
+class LankaraniNikravesh(NormalLaw):
+    """F = K d^n (1 + 3 (1 - e^2)/4 d'/v0), with v0 the approach speed at the contact's onset.
+
+    H. M. Lankarani and P. E. Nikravesh, J. Mech. Des. 112 (1990) 369: right where e is near 1; at
+    small e bodies rebound faster than e says, which the law ``restitution`` mends.
+    """
+
+    law: str = option("lankarani_nikravesh", doc="name of the law", choices=NORMAL_LAWS)
+    restitution: float = option(
+        0.9, doc="coefficient of restitution e", minimum=0.01, maximum=1.0,
+        assumption="no source gives one: 0.9 for oiled steel on steel",
+    )  # fmt: skip
+    speed_floor: float = quantity(
+        "m/s", 0.05, doc="least onset speed v0", above=0.0, assumption="bounds the damping"
+    )
+
+
+_ONE_MM = 1e-3  # m, the penetration at which ``OwnImpact`` has its stiffness
+NORMAL_LAWS["impact"] = OwnImpact
+NORMAL_LAWS["lankarani_nikravesh"] = LankaraniNikravesh
+
 
 @dataclass(frozen=True, kw_only=True)
 class FrictionLaw:
@@ -62,8 +119,7 @@ class FrictionLaw:
 
     ``traction``: Gupta's (A + B u) exp(-C u) + D through 0, the maximum ``peak`` at
     ``peak_speed`` and ``high_speed`` for large u; ``step_coulomb``: ADAMS static/dynamic with
-    cubic steps (paper 003); ``ramp_coulomb``: Ambrosio's ramp from v_static to v_dynamic
-    (paper 004).
+    cubic steps; ``ramp_coulomb``: Ambrosio's ramp from v_static to v_dynamic.
     """
 
     law: str = option("step_coulomb", doc="name of the law", choices=FRICTION_LAWS)

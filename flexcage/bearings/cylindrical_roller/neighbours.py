@@ -50,7 +50,7 @@ def rollers_beside(
     return RollersBeside(
         s=s,
         drop=drop,
-        normal=contact_laws.normal_parameters(contacts.race.normal, steel / len(s), _LINE),
+        normal=contact_laws.normal_parameters(contacts.race.normal, steel, _LINE, parts=len(s)),
         friction=contact_laws.friction_parameters(contacts.race.friction),
     )
 
