@@ -543,8 +543,8 @@ def _find_in_laws(case: CaseSections) -> Iterator[Finding]:
         if spec.normal.law in ("impact", "impact_step") and spec.normal.damping == 0.0:
             yield (
                 f"{where}.normal.damping",
-                f"{where}.normal.law is {spec.normal.law}, but its damping is 0; give {where}.normal."
-                "damping, or take the law 'elastic'.",
+                f"{where}.normal.law is {spec.normal.law}, but its damping is 0; give "
+                f"{where}.normal.damping, or take the law 'elastic'.",
             )
 
 

@@ -377,7 +377,7 @@ def normal_parameters(
     of a contact, whose ``stiffness`` is that of them all [N/m^exponent]."""
     build = NORMAL_PARAMETERS.get(law.law, _elastic_parameters)
     stiffness, exponent = law.elastic(stiffness, exponent)
-    own = build(law, stiffness * law.stiffness_factor / parts, exponent)
+    own = build(law.shared_by(parts), stiffness * law.stiffness_factor / parts, exponent)
     p = _vector(own, N_NORMAL, f"normal law '{law.law}'")
     if p[STIFFNESS] < 0.0 or p[EXPONENT] < 1.0:
         raise InputError(

@@ -281,15 +281,9 @@ def chosen_names(spec: Any) -> Iterator[str]:
 
 
 def common_values(spec: Any, cls: Any) -> dict[str, Any]:
-    """Values of a spec that another class of spec has as well, but for defaults of the former that
-    the latter has replaced by its own."""
-    known = {f.name: default_of(f) for f in dataclasses.fields(cls) if f.init}
-    found = {}
-    for f in dataclasses.fields(spec):
-        value, default = getattr(spec, f.name), default_of(f)
-        if f.name in known and (value != default or known[f.name] == default):
-            found[f.name] = value
-    return found
+    """Values of a spec that another class of spec has as well."""
+    known = {f.name for f in dataclasses.fields(cls) if f.init}
+    return {f.name: getattr(spec, f.name) for f in dataclasses.fields(spec) if f.name in known}
 
 
 def _set_item(

@@ -15,7 +15,6 @@ from flexcage.contacts.spec import FRICTION_LAWS as FRICTION_SPECS
 from flexcage.contacts.spec import (
     EhlTraction,
     FrictionLaw,
-    LankaraniNikravesh,
     Lubricant,
     NormalLaw,
     OwnImpact,
@@ -42,7 +41,7 @@ NORMAL_SPECS = {
     "restitution": NormalLaw(law="restitution", restitution=0.6),
     "impact_step": NormalLaw(law="impact_step", damping=800.0, full_damping_depth=1e-5),
     "impact": OwnImpact(damping=800.0),
-    "lankarani_nikravesh": LankaraniNikravesh(restitution=0.6),
+    "lankarani_nikravesh": NormalLaw(law="lankarani_nikravesh", restitution=0.6),
 }
 
 
@@ -159,11 +158,14 @@ def test_preset_slices_share_one_stiffness():
 
 def test_an_impact_of_ones_own_is_that_of_adams():
     """By default 1e5 N/mm and an exponent of 2.2: 25 um of penetration give 1e5 * 0.025^2.2 N, and
-    10 N s/mm damp from 0.1 mm on, whatever geometry and materials are."""
-    p = laws.normal_parameters(OwnImpact(), LINE, 10 / 9, parts=15)
+    10 N s/mm damp from 0.1 mm on (its default as well), whatever geometry and materials are."""
+    spec = OwnImpact(damping=1e4, full_damping_depth=1e-4)
+    p = laws.normal_parameters(spec, LINE, 10 / 9, parts=15)
     force = normal(laws.impact_step, p, np.full(15, 25e-6), np.zeros(15))[0].sum()
     assert force == pytest.approx(1e5 * 0.025**2.2, rel=1e-12)
-    one = laws.normal_parameters(OwnImpact(), LINE, 10 / 9)
+    damped = normal(laws.impact_step, p, np.full(15, 0.2e-3), np.full(15, 0.01))[0].sum()
+    assert damped == pytest.approx(1e5 * 0.2**2.2 + 1e4 * 0.01, rel=1e-12)
+    one = laws.normal_parameters(spec, LINE, 10 / 9)
     _, elastic, _, damping = (x[0] for x in normal(laws.impact_step, one, [0.2e-3], [0.01]))
     assert damping == 1e4 and elastic == pytest.approx(1e5 * 0.2**2.2, rel=1e-12)
 
@@ -173,7 +175,7 @@ def test_a_body_rebounds_by_lankarani_and_nikravesh_as_theory_has_it(e, miss):
     """A mass that strikes loses (1 - e^2) of its energy to first order: near e = 1 it rebounds at
     e, at small e faster. With chi = 3 (1 - e^2)/4 the exact ratio r of speeds solves
     ln[(1 + chi)/(1 - chi r)] = chi (1 + r)."""
-    p = laws.normal_parameters(LankaraniNikravesh(restitution=e), HERTZ_BALL, 1.5)
+    p = laws.normal_parameters(NormalLaw(law="lankarani_nikravesh", restitution=e), HERTZ_BALL, 1.5)
     chi = 0.75 * (1.0 - e * e)
     r = brentq(lambda r: np.log((1 + chi) / (1 - chi * r)) - chi * (1 + r), 0.1, 1.0)
     found = strike(laws.restitution, p, 2.7173e-3, 0.5).restitution

@@ -202,7 +202,8 @@ def test_a_page_goes_figure_by_figure_and_its_appendix_has_the_statistics():
     text = compose(page(history=["a limit"]))
     parts = ("# A paper", "What it says", "(hero.png)", "| 1 | 2 |", "### Figure 1",
              "*The paper:* it rises", "(a.png)", "**rises: ✓ reproduced.** because it must",
-             "| 1 | it rises (Figure 1) | rises | ✓ reproduced |", "- why?", "1 minute")  # fmt: skip
+             "| 1 | it rises (Figure 1) | rises | ✓ reproduced |", "- why?",
+             "1 minute")  # fmt: skip
     places = [text.index(part) for part in parts]
     assert all(a < b for a, b in pairwise(places))
     assert "90%" not in text

@@ -82,7 +82,7 @@ def aliases(shares: np.ndarray, names: Sequence[str]) -> list[str]:
     found = []
     cell = np.minimum((shares * CELLS).astype(int), CELLS - 1)
     middle = np.abs(shares - 0.5) < 0.25
-    for i in range(len(names)):
+    for i in range(shares.shape[1]):
         for j in range(i):
             counts = np.bincount(cell[:, i] * CELLS + cell[:, j], minlength=CELLS * CELLS)
             pair = f"{names[j]} and {names[i]}"
