@@ -22,7 +22,8 @@ WITHIN = 2.0  # factor: fillet, clearance and contact of the paper's model are n
 #: Scatter of starts over their mean, of the better model of 26 November 2026 (eight starts).
 SCATTER = {
     "whirl": 0.08, "scatter": 0.1, "reach": 0.1, "line": 0.1, "spikes": 0.05, "ripple": 0.08,
-    "pitch": 0.08, "corner": 0.02, "cage_speed_mean": 0.001, "speed_before": 0.005, "speed_at": 0.005, "speed_after": 0.005,
+    "pitch": 0.08, "corner": 0.02, "cage_speed_mean": 0.001,
+    "speed_before": 0.005, "speed_at": 0.005, "speed_after": 0.005,
     "swing_before": 0.08, "slip_before": 0.03, "slip_at": 0.03, "slip_after": 0.03,
 }  # fmt: skip
 

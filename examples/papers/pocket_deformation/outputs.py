@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from math import nan, pi
 
 import numpy as np
+
 from flexcage import register
 from flexcage.results import metrics
 from flexcage.results.lowpass import butterworth, low_passed_both_ways
