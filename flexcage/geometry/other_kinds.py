@@ -60,6 +60,8 @@ SURROUNDINGS: Mapping[str, str] = MappingProxyType({
     r"(.*_)?temperatures?(_.*)?|heat.*|thermal.*|cooling": "flexcage computes no heat: give "
     "lubricant.viscosity and the clearance at the temperature of work, and cage.temperature for "
     "the cage's modulus",
+    r"(ball|roller|rolling|ceramic).*materials?|hybrid|ceramics?": "the material of rolling "
+    'elements is bearing.element_material, as "Si3N4"',
     r"grease.*|seals?": "flexcage knows the oil of [lubricant]; grease, seals and "
     "their torque are not computed",
 })  # fmt: skip
