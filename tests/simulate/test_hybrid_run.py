@@ -9,6 +9,7 @@ import pytest
 
 from flexcage.case import load_case
 from flexcage.simulate import simulate
+from flexcage.spec import WearLaw
 
 CASE = {
     "bearing": {"preset": "7010C-PI"},
@@ -59,3 +60,10 @@ def test_a_hybrid_bearing_presses_less_on_its_outer_race(runs):
         assert told == (name == "Si3N4")
     assert outer["Si3N4"] < 0.75 * outer["GCr15"]
     assert apart["Si3N4"] < 0.6 * apart["GCr15"]
+
+
+def test_wear_says_that_its_coefficient_is_of_steel_elements(runs):
+    law = WearLaw(material="polyimide", coefficient=1e-15)
+    for name, (run, _) in runs.items():
+        against = "the coefficient is against steel, and the elements are of Si3N4"
+        assert (against in run.wear(law).table(1.0).replace("\n", " ")) == (name == "Si3N4")
