@@ -541,11 +541,11 @@ def _find_in_laws(case: CaseSections) -> Iterator[Finding]:
                 f"{where}.friction.high_speed is {friction.high_speed:g}, but must be less than "
                 f"the traction's peak, {friction.peak:g}.",
             )
-        if spec.normal.law == "impact_step" and spec.normal.damping == 0.0:
+        if spec.normal.law in ("impact", "impact_step") and spec.normal.damping == 0.0:
             yield (
                 f"{where}.normal.damping",
-                f"{where}.normal.law is impact_step, but its damping is 0; give {where}.normal."
-                "damping, or take the law 'elastic'.",
+                f"{where}.normal.law is {spec.normal.law}, but its damping is 0; give "
+                f"{where}.normal.damping, or take the law 'elastic'.",
             )
 
 

@@ -90,13 +90,14 @@ def _race_side(bearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool
     modulus = bearing.race_modulus
     wave, spall = uneven_race(bearing, "inner" if inner else "outer", radius, equivalent)
     stiffness = laws.iso_line_stiffness(bearing.effective_length, modulus)
-    stiffness /= contacts.race.slices
     return RaceSide(
         sign=sign,
         radius=radius,
         s=s,
         drop=drop,
-        normal=laws.normal_parameters(contacts.race.normal, stiffness, 10.0 / 9.0),
+        normal=laws.normal_parameters(
+            contacts.race.normal, stiffness, 10.0 / 9.0, parts=contacts.race.slices
+        ),
         friction=laws.friction_parameters(contacts.race.friction),
         rolling=laws.rolling_resistance(lubricant, equivalent, bearing.effective_length, modulus),
         hydro=2.0 * equivalent / rw,
@@ -183,10 +184,12 @@ def _pocket_laws(bearing, cage, contacts: Contacts, interface: CageInterface) ->
         depth=0.5 * crossbeam_width(bearing, cage),
         patch_half_width=interface.patch_half_width if flexible else 0.0,
     )
-    k_end = laws.flat_end_stiffness(0.9 * rw, roller, wall) / len(end_points(bearing, cage))
+    k_end = laws.flat_end_stiffness(0.9 * rw, roller, wall)
     return np.stack([
-        laws.normal_parameters(contacts.pocket.normal, k / contacts.pocket.slices, e),
-        laws.normal_parameters(contacts.side.normal, k_end, 1.0),
+        laws.normal_parameters(contacts.pocket.normal, k, e, parts=contacts.pocket.slices),
+        laws.normal_parameters(
+            contacts.side.normal, k_end, 1.0, parts=len(end_points(bearing, cage))
+        ),
     ])  # fmt: skip
 
 
@@ -203,7 +206,7 @@ def _rib_data(bearing: RollerBearing, contacts: Contacts, ring: str) -> RibData:
         half_roller=0.5 * bearing.roller_length,
         points=points,
         normal=laws.normal_parameters(
-            contacts.rib.normal, rib_stiffness(bearing) / max(len(points), 1), 1.0
+            contacts.rib.normal, rib_stiffness(bearing), 1.0, parts=max(len(points), 1)
         ),
         friction=laws.friction_parameters(contacts.rib.friction),
     )

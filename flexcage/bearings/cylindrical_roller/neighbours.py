@@ -50,7 +50,7 @@ def rollers_beside(
     return RollersBeside(
         s=s,
         drop=drop,
-        normal=contact_laws.normal_parameters(contacts.race.normal, two / len(s), _LINE),
+        normal=contact_laws.normal_parameters(contacts.race.normal, two, _LINE, parts=len(s)),
         friction=contact_laws.friction_parameters(contacts.race.friction),
     )
 

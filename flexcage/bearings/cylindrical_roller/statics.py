@@ -27,7 +27,7 @@ from flexcage.system.statics.elements import ElementLoads, Response, azimuths
 from flexcage.system.statics.options import StaticOptions
 
 EXPONENT = 10.0 / 9.0
-_AT_REST = ("restitution", "impact_step", "elastic")  # laws that are K d^n without motion
+_AT_REST = ("restitution", "lankarani_nikravesh", "impact_step", "elastic")  # K d^n at rest
 # ISO/TS 16281:2008: ratings of one roller, and lambda nu of radial roller bearings
 _INNER, _OUTER, _LAMBDA_NU, _SPREAD = 0.378, 0.364, 0.83, 1.038
 
