@@ -137,10 +137,11 @@ def _find_in_name(case: CaseSections) -> Iterator[Finding]:
 
 
 def _find_in_materials(case: Any) -> Iterator[Finding]:
-    for where in ("bearing", "cage"):
-        material = getattr(getattr(case, where, None), "material", None)
+    for where in ("bearing.material", "bearing.element_material", "cage.material"):
+        part, _, key = where.partition(".")
+        material = getattr(getattr(case, part, None), key, None)
         if material is not None and material.density < _LEAST_DENSITY:
-            here = f"{where}.material.density"
+            here = f"{where}.density"
             yield (
                 here,
                 f"{here} is {describe(material.density, 'kg/m^3')}, far below that of any solid; "

@@ -461,7 +461,8 @@ def pocket_line_law(
         raise InputError(
             f"The contact of a roller ({one}) on the cage's pocket ({other}) becomes as wide as "
             f"its bodies under {loads[1]:g} N, where no law of line contact holds; are "
-            "cage.material.youngs_modulus and bearing.material.youngs_modulus in the unit meant?",
+            "cage.material.youngs_modulus and bearing.material.youngs_modulus, or that of "
+            "bearing.element_material, in the unit meant?",
             where="cage.material.youngs_modulus",
             value=wall[0],
         )
