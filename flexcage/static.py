@@ -35,15 +35,19 @@ def solve_static(case: StaticCase, *, options: StaticOptions | None = None) -> S
     Raises InputError for a load that the bearing cannot bear, RunFailed if none is found.
     """
     expect(case, (StaticCase, Case), "case", "flexcage.load_static reads one from a file")
-    seat = compliance_of(case.mount, case.bearing)
+    mounted = case.mounted
+    bearing = mounted.bearing
+    seat = compliance_of(case.mount, bearing)
     solution = solve_bearing(
-        case.bearing, statics_of(case.bearing), load=case.load, speed=case.speed,
+        bearing, statics_of(bearing), load=mounted.load, speed=case.speed,
         contacts=case.contacts, lubricant=case.lubricant, options=options or case.static,
-        rings=Rings(case.inner_ring, case.outer_ring, sections_of(case.bearing)),
+        rings=Rings(case.inner_ring, case.outer_ring, sections_of(bearing)),
         seat=seat,
     )  # fmt: skip
     odd = (text for _, text in odd_values(case))
-    said = (*not_used(case), *odd, *questioned(case.mount, case.bearing, seat))
+    said = (*not_used(case), *odd, *questioned(case.mount, bearing, seat))
+    if case.mounting is not None:
+        solution = replace(solution, mounting=case.mounting)
     return replace(solution, warnings=(*said, *solution.warnings)) if said else solution
 
 
@@ -67,7 +71,7 @@ def ehl_traction(
             where="drive.speed",
         )
     options = AT_START if isinstance(case, Case) else case.static
-    bearing, solution = case.bearing, solve_static(case, options=options)
+    bearing, solution = case.mounted.bearing, solve_static(case, options=options)
     balls = solution.elements
     entrained = bearing.rolling_entrainment(balls.angle, balls.orbital_speed, case.speed)
     found = []

@@ -25,6 +25,7 @@ from flexcage.geometry.film import Film, Oil
 from flexcage.geometry.other_kinds import kind_of, named_kind
 
 if TYPE_CHECKING:
+    from flexcage.geometry.fits.changed import Changed
     from flexcage.geometry.materials import Material
 
 _MISSING = object()
@@ -161,6 +162,25 @@ class Bearing:
     def element_edge(self) -> float:
         """Radius [m] of the edges at an element's ends; 0 for types that do not say."""
         return 0.0
+
+    @property
+    def clearance(self) -> float:
+        """Radial internal clearance Pd [m]."""
+        raise self._lacks("clearance")
+
+    @property
+    def race_diameters(self) -> tuple[float, float]:
+        """Diameters [m] at which elements roll on inner and outer race."""
+        raise self._lacks("race_diameters")
+
+    def in_place(self, changed: Changed) -> Bearing:
+        """The bearing as fits, warmth and speed change it; types without it have no [fit]."""
+        raise self._lacks("in_place")
+
+    def approach(self, mounted: Bearing) -> float | None:
+        """By how much [m] the inner ring of this bearing, ``mounted``, meets its elements earlier
+        along the axis; None of types without a place of first contact."""
+        return None
 
     @property
     def element_mass(self) -> float:

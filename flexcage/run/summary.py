@@ -10,6 +10,7 @@ from flexcage.results.figures.cage import SUPPORT, CageFacts, cage_rows
 from flexcage.results.figures.effort import SOLVER, TIMES
 from flexcage.results.figures.figure import rows_of
 from flexcage.results.figures.film import FILM, Lubricated
+from flexcage.results.figures.fits import FITS
 from flexcage.results.figures.part import SettledRun
 from flexcage.results.figures.sections import summarise
 from flexcage.results.figures.stress import RIVETS, stress_rows
@@ -32,7 +33,8 @@ def summary_of(run: RunRecord, *, stress: bool = True) -> Summary:
     case, part = run.case, part_of(run)
     summary = summarise(part)
     for rows in (
-        FILM.rows(Lubricated(part, case.bearing, case.lubricant.oil)),
+        FILM.rows(Lubricated(part, run.bearing, case.lubricant.oil)),
+        [] if case.mounting is None else FITS.rows(case.mounting),
         [FIGURES[edge.key].row(edge.found) for edge in run.groove_edges],
         SUPPORT.rows(case.held_in_words),
         _cage_rows(run),
@@ -69,7 +71,7 @@ def warned(summary: Summary, run: RunRecord) -> Summary:
     outcome = RunOutcome(
         summary=summary,
         dataset=run.dataset,
-        bearing=case.bearing,
+        bearing=run.bearing,
         cage=case.cage,
         land=case.land,
         duration=case.solver.duration,

@@ -18,6 +18,7 @@ from flexcage.results.figures.effort import SOLVER, TIMES
 from flexcage.results.figures.energy import ENERGY
 from flexcage.results.figures.figure import STATISTIC, TEXT, Figure
 from flexcage.results.figures.film import FILM
+from flexcage.results.figures.fits import FITS
 from flexcage.results.figures.forces import CONTACTS, FORCES, NEXT
 from flexcage.results.figures.motion import MOTION
 from flexcage.results.figures.part import OwnFigures
@@ -35,8 +36,9 @@ from flexcage.results.registry import whose
 
 #: The sections of a summary, in order.
 _TABLES = (
-    STATISTICS, SPEEDS, SLIP, MOTION, FORCES, CONTACTS, NEXT, INNER, OUTER, ENERGY, FILM, SUPPORT,
-    CAGE, PINCH, MODES, STRESS, STRESS_TIME, RIVETS, RIVETS_TIME, DAMAGE, TRACKS, SOLVER, TIMES,
+    STATISTICS, SPEEDS, SLIP, MOTION, FORCES, CONTACTS, NEXT, INNER, OUTER, ENERGY, FILM, FITS,
+    SUPPORT, CAGE, PINCH, MODES, STRESS, STRESS_TIME, RIVETS, RIVETS_TIME, DAMAGE, TRACKS,
+    SOLVER, TIMES,
 )  # fmt: skip
 
 

@@ -45,8 +45,10 @@ class StaticSolution(StaticState):
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values; what is not a number or infinite is None."""
-        names = [f.name for f in dataclasses.fields(self) if f.name != "rings"]
+        names = [f.name for f in dataclasses.fields(self) if f.name not in ("rings", "mounting")]
         fields = {name: _plain(getattr(self, name)) for name in names}
+        if self.mounting is not None:
+            fields["mounting"] = _plain(self.mounting)
         if self.rings:
             fields["rings"] = {ring.side: _plain(ring.figures()) for ring in self.rings}
         return {"format": FORMAT, "flexcage": __version__, **fields}

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from flexcage.geometry.film import Film
+from flexcage.geometry.fits.mounting import Mounting
 from flexcage.system.statics.elements import ElementLoads
 from flexcage.system.statics.rings import BentRing
 
@@ -51,6 +52,7 @@ class StaticState:
     held: str = ""  # how the inner ring is held, in words
     rings: tuple[BentRing, ...] = ()  # that bend
     outer: np.ndarray = field(default_factory=lambda: np.zeros(5))
+    mounting: Mounting | None = None  # of the bearing that this is, if fits were given
 
     @property
     def largest_force(self) -> float:

@@ -8,6 +8,7 @@ import numpy as np
 
 from flexcage.core import html
 from flexcage.core.listing import aligned, wrapped
+from flexcage.geometry.fits.telling import clearance_lines, clearance_note
 from flexcage.system.statics.rings import BentRing
 from flexcage.system.statics.state import StaticState
 
@@ -26,6 +27,9 @@ def table_of(s: StaticState, width: int = 0) -> str:
         return f"{wrapped(note, width=width)}\n{grid(lines, 'r')}"
 
     parts = [wrapped(_head(s), width=width), grid(_ring_lines(s)), grid(_stiffness_lines(s))]
+    if s.mounting is not None:
+        note = wrapped(clearance_note(s.mounting), width=width)
+        parts.insert(1, f"{note}\n{grid(clearance_lines(s.mounting))}")
     parts += [aligned(_life_lines(s), width=width), noted(_element_note(s), _element_lines(s))]
     parts += [noted(_bent_note(ring), _bent_lines(ring)) for ring in s.rings]
     parts += [grid(_support_lines(ring), "r") for ring in s.rings if len(ring.bears)]
@@ -43,6 +47,7 @@ def html_of(s: StaticState) -> str:
         html.paragraphs(held),
         _html_grid(_ring_lines(s)),
         html.table([*_peaks(s), *_life_lines(s)]),
+        *_clearance_html(s),
         html.folded("Stiffness", _html_grid(_stiffness_lines(s))),
         html.folded("Elements", elements),
         *(
@@ -50,6 +55,13 @@ def html_of(s: StaticState) -> str:
             for ring in s.rings
         ),
     )
+
+
+def _clearance_html(s: StaticState) -> list[str]:
+    if s.mounting is None:
+        return []
+    note = html.paragraphs([clearance_note(s.mounting)])
+    return [html.folded("Clearance", note + _html_grid(clearance_lines(s.mounting)))]
 
 
 def _html_grid(lines: list[list[str]], *, sides: str = "lr") -> str:
