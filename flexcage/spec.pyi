@@ -13,6 +13,8 @@ from flexcage.geometry.bearing import RingLand as RingLand
 from flexcage.geometry.cage import Cage as Cage
 from flexcage.geometry.defect import CageDefect as CageDefect
 from flexcage.geometry.fits.spec import Fit as Fit
+from flexcage.geometry.life.spec import Life as Life
+from flexcage.geometry.life.spec import LoadPoint as LoadPoint
 from flexcage.geometry.materials import MATERIALS as MATERIALS
 from flexcage.geometry.materials import Material as Material
 from flexcage.geometry.ring import InnerRing as InnerRing

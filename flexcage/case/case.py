@@ -50,7 +50,8 @@ _MOUNTED = ("bearing", "load")  # which [fit] changes: what follows of it counts
 _ORDER = (
     "name", "description", "preset", "bearing", "fit", "cage", "cage_model", "defects", "mesh",
     "modes", "lubricant", "contacts", "drive", "load", "mount", "constraints", "start", "solver",
-    "output", "limits", "seed", "given", "inner_ring", "outer_ring", "static",
+    "output", "limits", "seed", "given", "inner_ring", "outer_ring", "life",
+    "static",
 )  # fmt: skip
 
 
@@ -128,6 +129,8 @@ class Case(CaseSections, StaticCase):
         names = [f.name for f in dataclasses.fields(self) if f.name not in left_out]
         physics = {name: getattr(self, name) for name in names}
         physics |= {name: getattr(self.mounted, name) for name in _MOUNTED}
+        if not self.life.given:
+            del physics["life"]
         physics["contacts"] = dataclasses.replace(self.contacts, land=self.land)
         if self.cage is not None:
             physics |= self._cage_physics(self.cage)

@@ -21,6 +21,7 @@ from flexcage.geometry.cage import Cage
 from flexcage.geometry.defect import CageDefect, defect_spec
 from flexcage.geometry.fits.mounting import Mounting
 from flexcage.geometry.fits.spec import Fit
+from flexcage.geometry.life.spec import Life
 from flexcage.geometry.other_kinds import SURROUNDINGS
 from flexcage.geometry.ring import InnerRing, OuterRing
 from flexcage.mesh.options import MeshOptions
@@ -109,6 +110,7 @@ class RingSections(LoadedSections):
 class StaticSections(RingSections, NamedSections):
     """Bearing, contacts, load, speed and options, of which a static solution is made."""
 
+    life: Life = option(Life(), doc="how life is quoted, and of which load spectrum")
     static: StaticOptions = option(StaticOptions(), doc="how a static solution is meant")
     given: tuple[str, ...] | None = dataclasses.field(
         default=None, compare=False,

@@ -22,6 +22,7 @@ from flexcage.core.units import typeset
 from flexcage.core.wings import FAMILIES, Parts
 from flexcage.geometry.cage import Cage, RingLimit
 from flexcage.geometry.film import Film, Oil
+from flexcage.geometry.life.iso281 import Endurance
 from flexcage.geometry.other_kinds import kind_of, named_kind
 
 if TYPE_CHECKING:
@@ -101,6 +102,7 @@ class Bearing:
     # contacts of which [contacts] speaks, beside the cage's land
     places: ClassVar[tuple[str, ...]] = ("race", "pocket", "side", "rib")
     sliced: ClassVar[tuple[str, ...]] = ("race", "pocket")  # those cut in slices or strips
+    endurance: ClassVar[Endurance | None] = None  # constants of its modified life, ISO 281
     carries_axial_load: ClassVar[bool] = False  # in a run, with the ring free axially and in tilt
     elsewhere: ClassVar[Mapping[str, str]] = {}  # patterns of keys that it has not: what there is
 

@@ -11,6 +11,7 @@ from flexcage.results.figures.effort import SOLVER, TIMES
 from flexcage.results.figures.figure import rows_of
 from flexcage.results.figures.film import FILM, Lubricated
 from flexcage.results.figures.fits import FITS
+from flexcage.results.figures.life import LIFE
 from flexcage.results.figures.part import SettledRun
 from flexcage.results.figures.sections import summarise
 from flexcage.results.figures.stress import RIVETS, stress_rows
@@ -22,8 +23,11 @@ from flexcage.results.warnings import from_attrs, warnings_of
 from flexcage.results.warnings_at_end import AT_END, CAGELESS_AT_END, RunOutcome
 from flexcage.run.elastic import elastic_shape
 from flexcage.run.folder import seam_warnings
+from flexcage.static import solve_static
+from flexcage.system.statics.options import AT_START
 
 if TYPE_CHECKING:
+    from flexcage.case import Case
     from flexcage.run.record import RunRecord
 
 
@@ -35,6 +39,7 @@ def summary_of(run: RunRecord, *, stress: bool = True) -> Summary:
     for rows in (
         FILM.rows(Lubricated(part, run.bearing, case.lubricant.oil)),
         [] if case.mounting is None else FITS.rows(case.mounting),
+        [] if not case.life.given else _lives(case),
         [FIGURES[edge.key].row(edge.found) for edge in run.groove_edges],
         SUPPORT.rows(case.held_in_words),
         _cage_rows(run),
@@ -47,6 +52,11 @@ def summary_of(run: RunRecord, *, stress: bool = True) -> Summary:
     if run.effort is not None:
         summary = summary.with_figures(SOLVER.rows(run.effort))
     return warned(timed(summary, run), run)
+
+
+def _lives(case: Case) -> tuple[SummaryRow, ...]:
+    lives = solve_static(case, options=AT_START).lives
+    return () if lives is None else LIFE.rows(lives)
 
 
 def part_of(run: RunRecord) -> SettledRun:

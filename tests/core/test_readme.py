@@ -32,8 +32,13 @@ CASES = {
     "flexcage/cages/README.md": ("15x37x10",),
     "flexcage/modes/README.md": ("N1013",),
 }
-# a static case, a study, a map
-NOT_CASES = {"examples/cases.md": 1, "examples/studies.md": 1, "examples/claims.md": 1}
+# a static case, a study, a map, a spectrum
+NOT_CASES = {
+    "examples/cases.md": 1,
+    "examples/studies.md": 1,
+    "examples/claims.md": 1,
+    "examples/fits.md": 1,
+}
 
 
 def name_of(page):

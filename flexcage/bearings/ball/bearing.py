@@ -26,6 +26,7 @@ from flexcage.geometry.bearing import (
 )
 from flexcage.geometry.film import Film, Oil, both_races, point_film, rolling_entrainment
 from flexcage.geometry.hertz import PointContact
+from flexcage.geometry.life.iso281 import BALLS, Endurance
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.other_kinds import SURROUNDINGS
 from flexcage.geometry.spall import BY_RACE, Spall
@@ -50,6 +51,7 @@ class BallBearing(Bearing):
     places: ClassVar[tuple[str, ...]] = ("race", "pocket")
     sliced: ClassVar[tuple[str, ...]] = ("race",)
     elsewhere: ClassVar[Mapping[str, str]] = {**BY_RACE, **SURROUNDINGS}
+    endurance: ClassVar[Endurance | None] = BALLS
     carries_axial_load: ClassVar[bool] = True
     one_sided: ClassVar[bool] = False  # are there shoulders for one direction of load alone?
 

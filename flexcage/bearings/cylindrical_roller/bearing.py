@@ -22,6 +22,7 @@ from flexcage.geometry.bearing import (
     type_name,
 )
 from flexcage.geometry.film import Film, Oil, both_races, line_film, rolling_entrainment
+from flexcage.geometry.life.iso281 import ROLLERS, Endurance
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.other_kinds import SURROUNDINGS
 from flexcage.geometry.spall import BY_RACE, Spall
@@ -85,6 +86,7 @@ class RollerBearing(Bearing):
     cage_spec: ClassVar[Spec] = WindowCage
     element: ClassVar[str] = "roller"
     family: ClassVar[str] = "cylindrical_roller"
+    endurance: ClassVar[Endurance | None] = ROLLERS
     elsewhere: ClassVar[Mapping[str, str]] = {
         "(inner_|outer_)?(ribs?|flanges?)(_.*)?": BY_RIBS,
         **BY_RACE,

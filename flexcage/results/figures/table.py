@@ -20,6 +20,7 @@ from flexcage.results.figures.figure import STATISTIC, TEXT, Figure
 from flexcage.results.figures.film import FILM
 from flexcage.results.figures.fits import FITS
 from flexcage.results.figures.forces import CONTACTS, FORCES, NEXT
+from flexcage.results.figures.life import LIFE
 from flexcage.results.figures.motion import MOTION
 from flexcage.results.figures.part import OwnFigures
 from flexcage.results.figures.rings import INNER, OUTER
@@ -37,7 +38,7 @@ from flexcage.results.registry import whose
 #: The sections of a summary, in order.
 _TABLES = (
     STATISTICS, SPEEDS, SLIP, MOTION, FORCES, CONTACTS, NEXT, INNER, OUTER, ENERGY, FILM, FITS,
-    SUPPORT, CAGE, PINCH, MODES, STRESS, STRESS_TIME, RIVETS, RIVETS_TIME, DAMAGE, TRACKS,
+    LIFE, SUPPORT, CAGE, PINCH, MODES, STRESS, STRESS_TIME, RIVETS, RIVETS_TIME, DAMAGE, TRACKS,
     SOLVER, TIMES,
 )  # fmt: skip
 
