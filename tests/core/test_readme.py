@@ -36,7 +36,7 @@ CASES = {
 NOT_CASES = {
     "examples/cases.md": 1,
     "examples/studies.md": 1,
-    "examples/claims.md": 1,
+    "examples/unknowns.md": 1,
     "examples/fits.md": 1,
 }
 
