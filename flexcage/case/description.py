@@ -176,18 +176,13 @@ def _value(table: Any, path: str) -> str:
 def grounds(case: CaseSections) -> dict[str, str]:
     """Where the values of a case come from: its preset's sources and those of its materials."""
     found = dict(load_preset(case.preset).sources) if case.preset else {}
-<<<<<<< HEAD
     if any(case.fit.warmth.values()):
         bodies = (case.bearing.material, case.fit.shaft_material, case.fit.housing_material)
         for name in (body.name for body in bodies if body.name in EXPANSIONS):
             found[f"expansion of {name}"] = EXPANSIONS[name][1]
-    if case.bearing.material.source:
-        found[case.bearing.material.name] = case.bearing.material.source
-=======
     for material in (case.bearing.material, case.bearing.rolling_material):
         if material.source:
             found[material.name] = material.source
->>>>>>> main
     if case.cage is None:
         return found
     if case.cage.material.source:

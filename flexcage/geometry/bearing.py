@@ -22,11 +22,8 @@ from flexcage.core.units import typeset
 from flexcage.core.wings import FAMILIES, Parts
 from flexcage.geometry.cage import Cage, RingLimit
 from flexcage.geometry.film import Film, Oil
-<<<<<<< HEAD
 from flexcage.geometry.life.iso281 import Endurance
-=======
 from flexcage.geometry.materials import contact_modulus
->>>>>>> main
 from flexcage.geometry.other_kinds import kind_of, named_kind
 
 if TYPE_CHECKING:

@@ -201,6 +201,8 @@ MATERIALS.update(_polyamides())
 EXPANSIONS: Mapping[str, tuple[float, str]] = MappingProxyType({
     "GCr15": (12e-6, "SKF, Rolling bearings, materials for bearing rings and rolling elements"),
     "steel": (12e-6, "EN 1993-1-1, 3.2.6, structural steel up to 100 degrees C"),
+    "Si3N4": (3e-6, "SKF, Rolling bearings, bearing grade silicon nitride"),
+    "ZrO2": (10.5e-6, "an assumption, of the class of 3Y-TZP (makers' sheets: 10 to 11e-6 1/K)"),
 })  # fmt: skip
 for _name, (_expansion, _) in EXPANSIONS.items():
     MATERIALS[_name] = replace(MATERIALS[_name], expansion=_expansion)

@@ -196,8 +196,7 @@ def _parts(initial: Three, steps: Sequence[_Step]) -> tuple[Part, ...]:
 
 def _strains(bearing: Bearing, fit: Fit) -> Mapping[str, float]:
     """Thermal strain of every body."""
-    own = bearing.material
-    elements = getattr(bearing, "element_material", None) or own
+    own, elements = bearing.material, bearing.rolling_material
     bodies: Mapping[str, tuple[Material, str]] = {
         "shaft": (fit.shaft_material, "fit.shaft_material"),
         "inner": (own, "bearing.material"),
