@@ -10,7 +10,7 @@ import numpy as np
 
 from flexcage.bearings import sections_of, statics_of
 from flexcage.case import Case, StaticCase
-from flexcage.case.odd_values import odd_values
+from flexcage.case.plausibility import implausible_values
 from flexcage.case.unread import not_used
 from flexcage.contacts.spec import EhlTraction
 from flexcage.core.binding import expect
@@ -42,7 +42,7 @@ def solve_static(case: StaticCase, *, options: StaticOptions | None = None) -> S
         rings=Rings(case.inner_ring, case.outer_ring, sections_of(case.bearing)),
         seat=seat,
     )  # fmt: skip
-    odd = (text for _, text in odd_values(case))
+    odd = (text for _, text in implausible_values(case))
     said = (*not_used(case), *odd, *questioned(case.mount, case.bearing, seat))
     return replace(solution, warnings=(*said, *solution.warnings)) if said else solution
 

@@ -12,12 +12,12 @@ from functools import cache
 
 from flexcage.case.catalogues import rows
 from flexcage.case.marks import split
-from flexcage.core.binding import near_names, told_elsewhere
+from flexcage.core.binding import near_names, replacement_of
 from flexcage.core.errors import InputError
 from flexcage.core.units import parse
 from flexcage.geometry.bearing import OTHER_DESIGNS
 from flexcage.geometry.full_complement import CAGED, FULL
-from flexcage.geometry.inside import Outline
+from flexcage.geometry.inference import Outline
 from flexcage.geometry.other_kinds import kind_of
 
 # columns of ratings that only some types of bearing have: the option of "flexcage new" for each
@@ -81,8 +81,10 @@ def _found(text: str, name: str) -> Entry:
             where="designation",
             value=text,
         )
-    if not _parsed(name) and (told := told_elsewhere(name, OTHER_DESIGNS)):
-        raise InputError(f"'{text}': {told}{_same_rollers(name)}.", where="designation", value=text)
+    if not _parsed(name) and (instead := replacement_of(name, OTHER_DESIGNS)):
+        raise InputError(
+            f"'{text}': {instead}{_same_rollers(name)}.", where="designation", value=text
+        )
     uncaged = _UNCAGED.fullmatch(name)
     raise _without_ratings(text, name) or InputError(
         f"'{text}' is not in the catalogue; {_nearest(name)}, and any other bearing is described "

@@ -10,7 +10,7 @@ from functools import cache
 from flexcage.case.catalogues import rows
 from flexcage.core.errors import InputError
 from flexcage.geometry.full_complement import CAGED, FILLED
-from flexcage.geometry.inside import ClearanceGroup, Outline
+from flexcage.geometry.inference import ClearanceGroup, Outline
 
 _GROUPS = ("C2", "CN", "C3", "C4", "C5")
 _NORMAL = "CN"

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.core.errors import InputError
-from flexcage.core.probing import check_reading, with_room, wrong_slopes
+from flexcage.core.probing import check_reading, wrong_slopes, zero_padded
 
 # penetrations [m] and their rates [m/s], sliding speeds [m/s] at which laws are tried
 _DEPTHS = np.geomspace(1e-9, 3e-5, 40)
@@ -59,7 +59,7 @@ class _Trial:
 @lru_cache(maxsize=256)
 def check_normal(law: Callable[..., None], name: str, given: tuple[float, ...]) -> None:
     """Raise InputError for a normal law that is none with the parameters ``given``."""
-    what, p = f"Normal law '{name}'", with_room(np.array(given))
+    what, p = f"Normal law '{name}'", zero_padded(np.array(given))
     trial = _Trial(law, what, ("d", "v", "onset"), ("F", "Fe", "Fd", "Fv"))
 
     def at(q: np.ndarray, d: np.ndarray, v: np.ndarray) -> np.ndarray:
@@ -107,7 +107,7 @@ def _check_force(
 @lru_cache(maxsize=256)
 def check_friction(law: Callable[..., None], name: str, given: tuple[float, ...]) -> None:
     """Raise InputError for a friction law that is none with the parameters ``given``."""
-    what, p = f"Friction law '{name}'", with_room(np.array(given))
+    what, p = f"Friction law '{name}'", zero_padded(np.array(given))
     trial = _Trial(law, what, ("u",), ("g", "dg"))
     every = np.concatenate([[0.0, 1e-9], _SLIDING])
     check_reading(what, lambda q: trial(q, every), np.array(given), where=what)

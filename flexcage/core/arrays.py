@@ -1,4 +1,4 @@
-"""The one door of arrays and sparse matrices in .npz files, whoever wrote them.
+"""Arrays and sparse matrices in .npz files, whoever wrote them: the only code that reads them.
 
 No pickle is opened, sizes are known before memory is taken, and a sparse matrix is checked whole:
 SciPy's compiled products follow its indices wherever they point, out of memory as well.

@@ -90,7 +90,7 @@ class KernelCache(NullCache):
                 continue  # none, or no cache at all: what writes to it says so
             except Exception as error:  # a damaged file may hold anything
                 kernel_files.remove(path)
-                self._folder.tell_damage(self._stem, error)
+                self._folder.warn_damage(self._stem, error)
                 continue
             kernel_files.mark_as_used(path)
             self._note(sig)

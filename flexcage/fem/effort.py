@@ -62,7 +62,7 @@ def modes_bytes(model: FEModel, vectors: int) -> float:
 
 
 @contextmanager
-def told_modes(solver: FreeBodySolver) -> Iterator[None]:
+def modes_progress(solver: FreeBodySolver) -> Iterator[None]:
     """Say how long the modal basis of a mesh from a file takes, and how far it is."""
     done = _FACTORS
 
@@ -80,7 +80,7 @@ def told_modes(solver: FreeBodySolver) -> Iterator[None]:
 
 
 @contextmanager
-def told_stress(model: FEModel, what: str, loads: int) -> Iterator[Callable[[int], None]]:
+def stress_progress(model: FEModel, what: str, loads: int) -> Iterator[Callable[[int], None]]:
     """Say how long the stress fields of so many unit loads take; gives what is to be called with
     the number of loads done in addition."""
     done = 0

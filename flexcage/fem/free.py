@@ -9,11 +9,11 @@ import numpy as np
 import scipy.sparse as sp
 
 from flexcage.core.errors import InputError
+from flexcage.fem.blocked_products import inner_products, subtract_product
 from flexcage.fem.condensed import CondensedRing, find_parts
 from flexcage.fem.dissected import DissectedBody
 from flexcage.fem.linear import linear_solver
 from flexcage.fem.model import FEModel
-from flexcage.fem.tall import inner_products, subtract_product
 
 
 class FreeBodySolver:

@@ -18,10 +18,10 @@ from scipy.linalg import eigh
 
 from flexcage.core.errors import InputError
 from flexcage.core.threads import on_all_cores
+from flexcage.fem.blocked_products import inner_products, subtract_product
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.modal import free_modes
 from flexcage.fem.symmetry import find_symmetry
-from flexcage.fem.tall import inner_products, subtract_product
 from flexcage.modes.basis import ModeBasis, ResidualFlexibility
 from flexcage.modes.lands import land_vectors
 from flexcage.modes.pockets import LOADS, LOADS_PER_POCKET, check_groups, sparse_pocket_loads

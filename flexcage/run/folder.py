@@ -231,7 +231,7 @@ def open_folder(folder: Path) -> tuple[Case, MemoryRunStore, tuple[RunWarning, .
     return case, store, (warning,)
 
 
-def tell_unfinished(folder: Path, store: MemoryRunStore, duration: float) -> None:
+def report_unfinished(folder: Path, store: MemoryRunStore, duration: float) -> None:
     """Log that a stored run is not finished, so that what is made of it is of a part;
     InputError if it has no sample yet. ``duration`` [s]: of the whole run."""
     if store.complete:

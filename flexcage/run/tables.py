@@ -38,8 +38,8 @@ def _tabled(run: RunRecord, names: Sequence[str] | None) -> tuple[xarray.Dataset
         if name in ds.variables:
             found.append(name)
             continue
-        export.check_there(name, [*map(str, ds.data_vars), *BESIDE])
-        more = BESIDE[name](run)
+        export.check_there(name, [*map(str, ds.data_vars), *EXTRA_TABLES])
+        more = EXTRA_TABLES[name](run)
         ds = ds.assign(more)
         found += more
     return ds, found
@@ -76,7 +76,7 @@ def _steps(run: RunRecord) -> dict[str, Any]:
 
 
 #: What a run has beside its dataset, by name: the variables that it becomes.
-BESIDE: Mapping[str, Callable[[RunRecord], dict[str, Any]]] = {
+EXTRA_TABLES: Mapping[str, Callable[[RunRecord], dict[str, Any]]] = {
     "stress": _stress,
     "stress_peak": _stress_peak,
     "film_thickness": _film,

@@ -42,7 +42,7 @@ from flexcage.system.spec import Constraint
 
 N_PARAMETERS = 10
 OFF, VELOCITY, POSITION = 0, 1, 2  # levels; OFF while a start is brought to equilibrium
-PROJECT, BORNE = -1, -2  # what ``holding.hold`` may be asked for beside its rows
+PROJECT, BORNE = -1, -2  # what ``apply_constraints`` may be asked for beside its rows
 LEVELS = {"velocity": VELOCITY, "position": POSITION}
 UNITS = ("N", "N m")  # of multipliers
 _ALIKE = 1e-9  # of normalised constraints: below it they hold the same

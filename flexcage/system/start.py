@@ -87,7 +87,7 @@ def constrained(
     return replace(start, y=y, yd=yd)
 
 
-def made_room(land: LandData, layout: Layout, y: np.ndarray) -> bool:
+def clear_of_land(land: LandData, layout: Layout, y: np.ndarray) -> bool:
     """Whether the cage's land was in the way of the ring that it rides on; it is moved off it,
     and rolling elements stay in the middle of their pockets."""
     q = layout.q(y)

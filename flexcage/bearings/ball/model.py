@@ -13,6 +13,7 @@ from flexcage.bodies.floating_frame import BodyData, no_body
 from flexcage.cages.round_pocket.cage import BallCage
 from flexcage.cages.round_pocket.interface import BallCageInterface
 from flexcage.contacts import laws
+from flexcage.contacts.ball_ball import BallsBeside
 from flexcage.contacts.ball_pocket import (
     CYLINDER,
     SPHERE,
@@ -20,7 +21,6 @@ from flexcage.contacts.ball_pocket import (
     ball_pocket_work,
     no_ball_pockets,
 )
-from flexcage.contacts.beside import BallsBeside
 from flexcage.contacts.groove import Groove
 from flexcage.contacts.land import NONE, LandData, no_land, with_other
 from flexcage.contacts.race import race_work

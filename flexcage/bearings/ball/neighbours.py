@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.contacts import laws as contact_laws
-from flexcage.contacts.beside import BallsBeside, TwoBalls, seen, touch_beside
+from flexcage.contacts.ball_ball import BallsBeside, TwoBalls, seen, touch_beside
 from flexcage.contacts.evaluation import RACE_LAW, RACE_RUBS, REPORT, TANGENT
 from flexcage.contacts.laws import EXPONENT
 from flexcage.contacts.slices import Laws, stored_and_damped

@@ -28,7 +28,7 @@ from flexcage.contacts.pocket_wall import (
 )
 from flexcage.contacts.race import RaceSide, race_work
 from flexcage.contacts.rib import RibData
-from flexcage.contacts.roller_beside import RollersBeside
+from flexcage.contacts.roller_roller import RollersBeside
 from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT
 from flexcage.contacts.uneven import is_uneven, spread, uneven_race

@@ -11,10 +11,10 @@ from math import cos, pi, sin
 from typing import TYPE_CHECKING
 
 from flexcage.contacts import laws as contact_laws
-from flexcage.contacts.beside import seen
+from flexcage.contacts.ball_ball import seen
 from flexcage.contacts.evaluation import RACE_LAW, RACE_RUBS, REPORT, TANGENT
 from flexcage.contacts.laws import EXPONENT
-from flexcage.contacts.roller_beside import (
+from flexcage.contacts.roller_roller import (
     RollersBeside,
     TwoRollers,
     approach_of,

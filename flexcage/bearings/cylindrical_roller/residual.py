@@ -95,7 +95,7 @@ def evaluate(t, y, yd, d, law, out, mode):
 
     ``d`` (``problem.Parts``) refers to the model, its memory and its workspaces; ``law`` holds
     the normal laws of race, pocket, side, rib and land, their friction laws, the rows of further
-    constraints and what puts these in (``holding.hold``), and what is compiled separately:
+    constraints and what puts these in (``constraint_equations``), and what is compiled separately:
     ``roller_pockets`` and ``equations.shared_equations``.
     """
     at = fields(d.places)

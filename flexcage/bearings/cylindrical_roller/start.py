@@ -40,7 +40,7 @@ from flexcage.system.rings.left_out import left_by_ribs
 from flexcage.system.rings.modes_data import standing
 from flexcage.system.rings.moving import MovingRings, held_rings
 from flexcage.system.rings.sections import lands_follow
-from flexcage.system.start import made_room
+from flexcage.system.start import clear_of_land
 
 _SMALL = 1e-7  # of the load: where an equilibrium is accepted
 _BALANCED = 1e-6  # of the load: what may stay unbalanced at last
@@ -374,7 +374,7 @@ def _assemble(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np.nd
     """Bring y to equilibrium, with the cage out of the way of its land's ring; the residual."""
     model, layout = system.bearing.data.model, system.bearing.layout
     residual = _equilibrate(system, y, yd, tight)
-    if made_room(model.land, layout, y):
+    if clear_of_land(model.land, layout, y):
         residual = _equilibrate(system, y, yd, tight)
         if not tight.any():
             squeezed = np.abs(layout.u(system.residual(y, yd))["cage"]).max()  # by its pockets
