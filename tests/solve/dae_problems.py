@@ -145,7 +145,7 @@ def run(bdf, problem, *, tolerance, end=2.0, max_order=2, times=(), h0=1e-6, h_m
     ys, yds, qs = (np.zeros((len(times), w)) for w in (problem.n, problem.n, quads))
     log = np.zeros((log_rows, 5))
     fns, first, rows = functions(problem), 0, []
-    options = bdf.Options(max_order, h_max, h_min, 0.3, max_steps)
+    options = bdf.BDFOptions(max_order, h_max, h_min, 0.3, max_steps)
     while True:
         outcome, first, filled = bdf.advance(
             fns, None, st, options, end, times, ys, yds, first, log, qs

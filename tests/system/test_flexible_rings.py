@@ -273,6 +273,6 @@ def test_ribs_of_a_design_are_in_its_sections():
     )
     assert min(r for _, r in ribbed[1].outline) == pytest.approx(0.5 * nu.rib_diameter)
     assert max(r for _, r in ribbed[0].outline) == pytest.approx(0.5 * n.inner_race_diameter)
-    free = ring_modes.Held(rigidly=False)
+    free = ring_modes.RingSeat(rigidly=False)
     soft, stiff = (ring_modes.reduce_ring(s[1], n.material, free) for s in (plain, ribbed))
     assert stiff.compliance[2, 0, 0] < 0.9 * soft.compliance[2, 0, 0]
