@@ -34,7 +34,7 @@ def _packages() -> list[ModuleType]:
 
 def _all_names() -> dict[str, str]:
     """Names of flexcage and of its namespaces, and where they stand."""
-    packages = {name: room.__name__ for room in _packages() for name in room.__all__}
+    packages = {name: module.__name__ for module in _packages() for name in module.__all__}
     return {**packages, **dict.fromkeys(__dir__(), __name__)}
 
 

@@ -42,8 +42,8 @@ def solve_static(case: StaticCase, *, options: StaticOptions | None = None) -> S
         rings=Rings(case.inner_ring, case.outer_ring, sections_of(case.bearing)),
         seat=seat,
     )  # fmt: skip
-    odd = (text for _, text in implausible_values(case))
-    said = (*not_used(case), *odd, *questioned(case.mount, case.bearing, seat))
+    unusual = (text for _, text in implausible_values(case))
+    said = (*not_used(case), *unusual, *questioned(case.mount, case.bearing, seat))
     return replace(solution, warnings=(*said, *solution.warnings)) if said else solution
 
 

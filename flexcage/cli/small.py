@@ -53,9 +53,9 @@ def presets_command(args: argparse.Namespace) -> int:
     say(wrapped(preset.title))
     rows = [(path, str(v), _assumed(reasons.get(path))) for path, v in flat(preset.tables)]
     say(aligned(rows, indent=2))
-    if beside := _default_assumptions(preset):
+    if assumed := _default_assumptions(preset):
         say("\n  and in a case that says no more:")
-        rows = [(path, value, _assumed(reason)) for path, (value, reason) in beside.items()]
+        rows = [(path, value, _assumed(reason)) for path, (value, reason) in assumed.items()]
         say(aligned(rows, indent=2))
     say()
     for name, stated, computed in preset.ratings():

@@ -16,10 +16,10 @@ from flexcage.core.jit import part
 from flexcage.core.vectors import combine, cross, dot, minus, plus, times
 
 
-class BallsBeside(NamedTuple):
+class BallBallContact(NamedTuple):
     """What all balls of a bearing share: how they touch each other."""
 
-    apart: float  # difference of azimuths [rad] from which on no two of them can touch
+    cutoff: float  # difference of azimuths [rad] from which on no two of them can touch
     normal: np.ndarray  # (N_NORMAL,)
     friction: np.ndarray  # (N_FRICTION,)
 
@@ -49,13 +49,13 @@ class BallTouch(NamedTuple):
 
 
 @part
-def seen(c, s, a):
+def rotated(c, s, a):
     """A vector in the frame of an element that is behind by an angle, cosine c and sine s."""
     return a[0], c * a[1] - s * a[2], s * a[1] + c * a[2]
 
 
 @part
-def touch_beside(two, beside, laws, sl):
+def ball_ball_contact(two, data, laws, sl):
     """The ``BallTouch`` of ``TwoBalls``; penetration and rate in sl.d[0], sl.v[0], and only if they
     touch (sl.d[0] > 0) forces."""
     reach = sqrt(dot(two.place, two.place))
@@ -64,11 +64,11 @@ def touch_beside(two, beside, laws, sl):
     arms = two.radii[0] - 0.5 * sl.d[0], two.radii[1] - 0.5 * sl.d[0]
     if sl.d[0] <= 0.0:
         return BallTouch(n, arms, none, none, none)
-    normal_forces(laws.normal, (0, 1), sl, beside.normal, two.onset)
+    normal_forces(laws.normal, (0, 1), sl, data.normal, two.onset)
     turn = combine(times(arms[0], two.spin), arms[1], two.other_spin)
     slip = plus(two.velocity, cross(turn, n))
     slip = combine(slip, -dot(slip, n), n)
     sl.u[0] = sqrt(dot(slip, slip))
-    friction_factors(laws.friction, (0, 1), sl, beside.friction)
+    friction_factors(laws.friction, (0, 1), sl, data.friction)
     friction = times(-sl.N[0] * sl.g[0], slip)
     return BallTouch(n, arms, slip, minus(friction, times(sl.N[0], n)), friction)

@@ -19,7 +19,7 @@ from flexcage.core.jit import part
 from flexcage.core.vectors import combine, cross, dot, minus, plus, times
 
 
-class RollersBeside(NamedTuple):
+class RollerRollerContact(NamedTuple):
     """What all rollers of a bearing share: how they touch each other."""
 
     s: np.ndarray  # (ns,) places of slices along a roller
@@ -48,9 +48,9 @@ def _facing(k, two, data):
     direction from the first to the second, and how far apart both axes are there."""
     p, b = times(data.s[k], two.axis), two.other_axis
     q = times((p[0] - two.place[0]) / b[0], b)
-    apart = minus(plus(two.place, q), p)
-    reach = sqrt(apart[1] * apart[1] + apart[2] * apart[2])
-    return p, q, (0.0, apart[1] / reach, apart[2] / reach), reach
+    line = minus(plus(two.place, q), p)
+    reach = sqrt(line[1] * line[1] + line[2] * line[2])
+    return p, q, (0.0, line[1] / reach, line[2] / reach), reach
 
 
 @part
@@ -76,7 +76,7 @@ def approach_of(two, data, sl):
 
 
 @part
-def touch_roller(two, data, laws, sl):
+def roller_roller_forces(two, data, laws, sl):
     """Normal forces sl.N, sliding (sl.t1 around, sl.t2 along the axis) and friction sl.g of all
     slices, whose depths are known."""
     n_slices = data.s.shape[0]
@@ -91,7 +91,7 @@ def touch_roller(two, data, laws, sl):
 
 
 @part
-def push_both(two, data, sl, first, second):
+def add_to_both(two, data, sl, first, second):
     """Add the slices' forces to the wrenches (6,) on both rollers, about their centres, in F;
     returns the normal force."""
     total = 0.0

@@ -59,9 +59,9 @@ def place_beyond(evaluate: Evaluate, given: np.ndarray) -> int | None:
 
 
 def _differs(evaluate: Evaluate, given: np.ndarray, wanted: np.ndarray, where: slice) -> bool:
-    for odd in _TRIAL_VALUES:
+    for trial in _TRIAL_VALUES:
         p = zero_padded(given)
-        p[where] = odd
+        p[where] = trial
         if not np.array_equal(_values(evaluate, p), wanted, equal_nan=True):
             return True
     return False

@@ -95,7 +95,7 @@ class Outline:
             "mounting (ISO 5753-1)",
         )
 
-    def given(self, key: str, what: str) -> float:
+    def required(self, key: str, what: str) -> float:
         """A value that this type of bearing needs; InputError where the outline lacks it."""
         value = getattr(self, key)
         if value is None:

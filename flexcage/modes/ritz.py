@@ -223,8 +223,8 @@ def coupling(stiffness: np.ndarray, share: np.ndarray, pocket_count: int) -> tup
     """
     scale = np.sqrt(np.diag(stiffness) / share)
     pocket, local = np.divmod(np.arange(len(stiffness)), len(stiffness) // pocket_count)
-    apart = pocket[:, None] != pocket[None, :]
-    ratios = np.where(apart, np.abs(stiffness) / np.outer(scale, scale), 0.0)
+    different = pocket[:, None] != pocket[None, :]
+    ratios = np.where(different, np.abs(stiffness) / np.outer(scale, scale), 0.0)
     even = (local < LOADS["linear"]) & (local % 2 == 0)
     return float(ratios[:, even].max()), float(ratios[:, ~even].max())
 

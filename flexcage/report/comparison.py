@@ -95,12 +95,12 @@ def _figure(output: Output, abscissa: Abscissa, names: Sequence[str]) -> Any:
         if numeric:
             points.sort(key=lambda i: abscissa.values[i])
         once = len({str(abscissa.values[i]) for i in points}) == len(points)
-        apart = min(_GROUP_OFFSET, _SPREAD / len(groups))
-        values, beside = abscissa.values, apart * (k - 0.5 * (len(groups) - 1))
+        offset = min(_GROUP_OFFSET, _SPREAD / len(groups))
+        values, shift = abscissa.values, offset * (k - 0.5 * (len(groups) - 1))
         few = len(groups) <= MOST_LINES
         lines = abscissa.joined and numeric and once and few and len(points) > 1
         figure.add_scatter(
-            x=[words.index(str(values[i])) + beside if words else float(values[i]) for i in points],
+            x=[words.index(str(values[i])) + shift if words else float(values[i]) for i in points],
             y=output.mean[points].tolist(),
             error_y=_bars(output, points, mark(k)["color"]),
             mode="lines+markers" if lines else "markers",

@@ -303,8 +303,8 @@ def vibration_figures(
     frequency = spectrum["frequency"].values
     for name, line in lines.items():
         near = np.abs(frequency - line) <= 2.0 * frequency[1]
-        apart = RESOLVED_BINS * frequency[1] <= line <= frequency[-1]
-        figures[f"envelope at {name}"] = float(spectrum.values[near].max()) if apart else np.nan
+        resolved = RESOLVED_BINS * frequency[1] <= line <= frequency[-1]
+        figures[f"envelope at {name}"] = float(spectrum.values[near].max()) if resolved else np.nan
     return figures
 
 

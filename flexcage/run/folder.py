@@ -286,6 +286,6 @@ def _edit(path: Path, text: str, case: Case) -> str:
 
 def _named(keys: list[str], new: dict[str, Any], old: dict[str, Any]) -> str:
     """The first of the values that differ, in brackets."""
-    told = [f"{key} is {new.get(key)}, was {old.get(key)}" for key in keys[:3]]
+    differences = [f"{key} is {new.get(key)}, was {old.get(key)}" for key in keys[:3]]
     more = f", and {len(keys) - 3} more" if len(keys) > 3 else ""
-    return f" ({'; '.join(told)}{more})" if told else ""
+    return f" ({'; '.join(differences)}{more})" if differences else ""

@@ -49,14 +49,14 @@ def _stress(run: RunRecord) -> dict[str, Any]:
     import xarray
 
     history = run.stress_history
-    told = {"units": "Pa", "long_name": "largest equivalent stress since the sample before"}
+    attrs = {"units": "Pa", "long_name": "largest equivalent stress since the sample before"}
     names = {"place": list(history.place_names)}
-    return {"stress": xarray.DataArray(history.places, names, (TIME, "place"), attrs=told)}
+    return {"stress": xarray.DataArray(history.places, names, (TIME, "place"), attrs=attrs)}
 
 
 def _stress_peak(run: RunRecord) -> dict[str, Any]:
-    told = {"units": "Pa", "long_name": "largest equivalent stress of the cage off flat walls"}
-    return {"stress_peak": (TIME, run.stress_history.peak, told)}
+    attrs = {"units": "Pa", "long_name": "largest equivalent stress of the cage off flat walls"}
+    return {"stress_peak": (TIME, run.stress_history.peak, attrs)}
 
 
 def _film(run: RunRecord) -> dict[str, Any]:

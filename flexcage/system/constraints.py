@@ -29,7 +29,7 @@ from numba import types
 
 from flexcage.bodies.floating_frame import BodyData
 from flexcage.core.errors import InputError
-from flexcage.core.jit import LEAN, kernel, kernel_of, why_not_compiled
+from flexcage.core.jit import WITHOUT_NRT, kernel, kernel_of, why_not_compiled
 from flexcage.core.kernel_values import KernelType
 from flexcage.core.registry import add, check_free
 from flexcage.core.vectors import RIGID, TURN, xyz
@@ -371,4 +371,4 @@ def _joined(kinds: tuple[tuple[Any, int], ...]) -> Any:
         first(t, y, at, p[0], G[:m], g[:m], h[:m])
         rest(t, y, at, p[1:], G[m:], g[m:], h[m:])
 
-    return numba.njit(ALL_ROWS, **{**LEAN, "cache": False})(rows)
+    return numba.njit(ALL_ROWS, **{**WITHOUT_NRT, "cache": False})(rows)

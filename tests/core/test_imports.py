@@ -100,7 +100,7 @@ def test_a_misspelt_name_is_answered_with_the_nearest():
             getattr(public_module, name)
 
 
-def test_the_door_shows_few_names():
+def test_the_package_shows_few_names():
     assert len(dir(flexcage)) <= 35
     assert {"simulate", "Case", "Run", "InputError", "spec", "register"} <= set(dir(flexcage))
 

@@ -53,7 +53,7 @@ def candidates(outline: Outline) -> list[Candidate]:
     """Every number of every standard ball that has room."""
     deep = outline.type == _DEEP_GROOVE
     if not deep:
-        outline.given("contact_angle", "the contact angle (--contact-angle)")
+        outline.required("contact_angle", "the contact angle (--contact-angle)")
     height = outline.outside_diameter - outline.bore
     found = []
     for diameter, name, unusual in _sizes(_SMALLEST * height, _LARGEST * height):

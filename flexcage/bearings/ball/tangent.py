@@ -10,7 +10,7 @@ follows motion, but for the ball's, and how the orbit's rate follows the ball's 
 from __future__ import annotations
 
 from flexcage.bearings.ball.residual import (
-    BESIDE,
+    NEIGHBOUR_FORCES,
     SHARED,
     in_pocket,
     on_race,
@@ -48,7 +48,7 @@ def linearise(t, y, yd, data):
     at = fields(d.places)
     q, u = y[: at.bodies_q], y[at.u : at.bodies_u]
     modes = set_bodies(y, d, TANGENT)
-    law[BESIDE](t, y, yd, d, law[:FAMILY_PARTS], fields(d.scratch).out, TANGENT)
+    law[NEIGHBOUR_FORCES](t, y, yd, d, law[:FAMILY_PARTS], fields(d.scratch).out, TANGENT)
     Rc, Vc = array_from(y, at.cage_q), array_from(y, at.cage_u)
     for i in range(at.elements):
         qi, ui = q[of_element(i)], u[of_element(i)]

@@ -33,8 +33,8 @@ _LARGEST = 0.15  # m, a roller's diameter
 
 def candidates(outline: Outline) -> list[Candidate]:
     """Rollers of the diameter that the races leave, as long as or longer than it."""
-    inner = outline.given("inner_race_diameter", "the race diameter F (--inner-race)")
-    outer = outline.given("outer_race_diameter", "the race diameter E (--outer-race)")
+    inner = outline.required("inner_race_diameter", "the race diameter F (--inner-race)")
+    outer = outline.required("outer_race_diameter", "the race diameter E (--outer-race)")
     diameter, pitch = 0.5 * (outer - inner), 0.5 * (outer + inner)
     check_design(outline)
     if diameter <= 0.0:

@@ -171,10 +171,10 @@ class RibbonCage(BallCage):
                 "bends or rivets smaller",
             )
         broad, head = outer - inner, 2.0 * self.head_radius
-        room = min(broad, pitch_diameter * sin(pi / pocket_count) - self.pocket_diameter)
-        if not head < room:
+        available = min(broad, pitch_diameter * sin(pi / pocket_count) - self.pocket_diameter)
+        if not head < available:
             yield (
                 "rivet_diameter",
                 f"so its head is {describe(head, 'mm')} across, but the sheet between pockets has "
-                f"{describe(room, 'mm')} for it",
+                f"{describe(available, 'mm')} for it",
             )

@@ -32,8 +32,8 @@ def match_nodes(body: ReducedBody, model: FEModel, units: str) -> np.ndarray:
             where=f"{WHERE}_units",
             value=own,
         )
-    apart, found = cKDTree(body.nodes).query(model.nodes)
-    missed = apart > _NODE_TOLERANCE * radius
+    distance, found = cKDTree(body.nodes).query(model.nodes)
+    missed = distance > _NODE_TOLERANCE * radius
     if missed.any():
         raise InputError(
             f"{body.source} has {len(body.nodes):,} nodes, but none within "

@@ -216,9 +216,9 @@ def elastic_modes(body: ReducedBody, *, where: str) -> tuple[np.ndarray, np.ndar
     strength = eigvalsh(held)
     loose = int(np.count_nonzero(strength < _MECHANISM * strength[-1]))
     if loose:
-        beside = "beside its rigid motions " if body.rigid is not None else ""
+        among = "beside its rigid motions " if body.rigid is not None else ""
         raise InputError(
-            f"{body.source}: the stiffness matrix is singular: {beside}{loose} of "
+            f"{body.source}: the stiffness matrix is singular: {among}{loose} of "
             f"{len(strength)} motions have no stiffness; the body has loose parts, or its shapes "
             "hold rigid motions in part.",
             where=where,

@@ -21,7 +21,7 @@ MATTERS = 0.1  # of a clearance
 _ROUND = 2  # waves around a ring from which on it is no longer round
 
 
-def left_out(moving: MovingRings) -> np.ndarray:
+def neglected_deflection(moving: MovingRings) -> np.ndarray:
     """Deflections (2, Z, 2) of both races at their ports, at the start, that ribs and lands leave
     out."""
     found = np.zeros_like(moving.data.given)
@@ -33,14 +33,14 @@ def left_out(moving: MovingRings) -> np.ndarray:
     return found
 
 
-def left_by_lands(moving: MovingRings, land: LandData) -> Iterator[str]:
+def neglected_at_lands(moving: MovingRings, land: LandData) -> Iterator[str]:
     """Sentences on a cage's lands."""
     if land.kind == NONE:
         return
     side = 0 if land.inner else OUTER_RACE
     way = moving.start.rings[0].seated.to_v.argmax(axis=0) if moving.start.rings else ()
     radial = [k for k, port in enumerate(way) if port == RADIALLY]
-    least = float(np.abs(left_out(moving)[side][:, radial]).max(initial=0.0))
+    least = float(np.abs(neglected_deflection(moving)[side][:, radial]).max(initial=0.0))
     if least > MATTERS * land.clearance:
         yield _sentence(SIDES[side], "lands", least, land.clearance)
     oval = _out_of_round(moving, side)
@@ -52,10 +52,10 @@ def left_by_lands(moving: MovingRings, land: LandData) -> Iterator[str]:
         )
 
 
-def left_by_ribs(moving: MovingRings, side: int, height: float, play: float) -> Iterator[str]:
+def neglected_at_ribs(moving: MovingRings, side: int, height: float, play: float) -> Iterator[str]:
     """Sentences on the ribs of a ring (``side``), which roller ends touch at a ``height`` [m] above
     its race; ``play`` [m] of a roller between both."""
-    (tilt,) = np.abs(left_out(moving)[side][:, 1:]).max(axis=0, initial=0.0)
+    (tilt,) = np.abs(neglected_deflection(moving)[side][:, 1:]).max(axis=0, initial=0.0)
     if tilt * height > MATTERS * play:
         yield _sentence(SIDES[side], "ribs", float(tilt * height), play)
 
