@@ -1,10 +1,9 @@
-"""Repeat a paper from its folder: run its readings and maps, judge its claims, write its page.
+"""Repeat a paper from its folder: run its readings and samples, judge its claims, write its page.
 
     python examples/papers/repeat.py examples/papers/c7010_centroid --page
 
 A paper is a folder: ``paper.py`` with ``PAPER``, ``claims.py``, ``outputs.py`` (numbers of a run),
-``figures.py`` and the TOML files of its readings and maps. All else is here, in ``paper_results``,
-``paper_figures`` and ``paper_page``.
+``figures.py`` and the TOML files of its readings and samples. All else is here and in ``judging``.
 """
 
 from __future__ import annotations
@@ -18,123 +17,97 @@ from dataclasses import dataclass, field, replace
 from datetime import date
 from pathlib import Path
 
-from paper_figures import STRESS
-from paper_index import Measured, write_index, write_measured
-from paper_page import Cell, Line, Page, Picture, Table, compose, draw_matrix
-from paper_results import (
-    Joined,
-    Mapped,
-    Reading,
-    cells_of_starts,
-    lines_of,
-    mapped,
-    not_mapped,
-    readings_of,
-    verdicts_of,
-    write_shares,
-)
-from paper_weighed import MOST_NAMED, Asked, weigh, weighed_table, write_indices
+import pandas as pd
+from judging.findings import Claim
+from judging.index import Measured, write_index, write_measured
+from judging.judge import REPRODUCED, Sample, judge
+from judging.page import Figure, Found, Page, Table, compose, compose_appendix
+from judging.power import verdicts
+from judging.readings import Reading, readings_of
+from judging.sample import aliases, in_words, sample_of
 
 import flexcage
 from flexcage.case.extensions import forget
-from flexcage.core.digits import percent_text
 from flexcage.core.progress import Progress
-from flexcage.study import MapResults, StudyResults, load_map, load_study, run_map, run_study
-from flexcage.study.claims import Claim
+from flexcage.study import (
+    Map,
+    MapResults,
+    StudyResults,
+    load_map,
+    load_study,
+    run_map,
+    run_study,
+)
 from flexcage.study.own import OWN
-from flexcage.study.verdicts import FAILS, HOLDS, UNDECIDED, write_verdicts
 
 QUICK = {"solver.duration": "40 ms"}
-CLEAR = 0.05  # level of the unknowns that a sentence names
+MODULES = ("claims", "outputs", "predict", "figures", "mechanisms", "paper")
 
 
-@dataclass(frozen=True)
-class Words:
-    """What the page says beside its numbers: a summary, a reason for every claim in one line, what
-    decides, and how it was read."""
+@dataclass(frozen=True, kw_only=True)
+class Draft:
+    """What a paper's folder says on its page, with pictures drawn beside it."""
 
     summary: str
-    reasons: Mapping[str, str]
-    decides: Sequence[str]
-    readings: Sequence[str]
+    hero: tuple[str, str]
+    model: Sequence[str] = ()
+    known: Table
+    figures: Sequence[Figure]
+    asks: Sequence[str]
+    appendix: Sequence[Table] = ()
+    history: Sequence[str] = ()
+    files: Sequence[str] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
 class Paper:
-    """A paper: where it is from, its claims, the columns of its matrix, and what its page shows.
+    """A paper: where it is from, its claims, what is run, and what its page says.
 
-    ``columns`` names the readings of ``readings`` by their labels, ``alone`` those that have a
-    study of their own (its file, their label), ``beside`` files of studies that put out more of
-    such a reading. ``maps`` are the files that make a column, ``rechecks`` files of maps whose
-    ``points`` are computed anew with a flexible cage, under ``recheck_conditions`` or, if a map has
-    none of these, all that it has; all rechecked points are a column of their own where
-    ``recheck_column`` names it. ``stress`` is what changes the file of a case for a run whose
-    stress is drawn; ``studies`` are beside. ``weighed`` are numbers by file of a map, whose
-    unknowns the page weighs by their first-order indices, ``measured`` rows of the table of all
-    papers.
+    ``samples`` names the maps (files, joined) over which claims are judged: the first one, or that
+    of ``judged_by`` by the claim's key. ``readings`` are studies by column: a file, and a label of
+    its axis "reading". ``drifting`` is the output that is 1 for a run that is not stationary.
+    ``scatter``: of starts, as a share of their mean, by output; for the power of the rules.
+    ``mechanisms``: what contradicts a claim's part ("key, part"), from the runs.
     """
 
     title: str
     source: str
     claims: Sequence[Claim]
-    readings: str
-    columns: Mapping[str, str]
-    maps: Mapping[str, Sequence[str]]
-    decided_by: Mapping[str, str]
-    alone: Mapping[str, tuple[str, str]] = field(default_factory=dict)
-    beside: Mapping[str, str] = field(default_factory=dict)
+    samples: Mapping[str, Sequence[str]]
+    readings: Mapping[str, tuple[str, str]]
+    judged_by: Mapping[str, str] = field(default_factory=dict)
     studies: Sequence[str] = ()
-    rechecks: Mapping[str, Sequence[int]] = field(default_factory=dict)
-    recheck_conditions: Sequence[str] = ()
-    recheck_column: str = ""
-    stress: tuple[str, Mapping[str, str]] | None = None
-    weighed: Mapping[str, Sequence[Asked]] = field(default_factory=dict)
-    draw: Callable[[Computed, Path], list[Picture]]
-    tables: Callable[[Computed], list[Table]]
-    words: Callable[[Computed], Words]
+    drifting: str = ""
+    scatter: Mapping[str, float] = field(default_factory=dict)
+    mechanisms: Callable[[Computed], Mapping[str, str]] = lambda computed: {}
+    draft: Callable[[Computed, Path], Draft]
     measured: Callable[[Computed], Sequence[Measured]] = lambda computed: ()
-    files: Sequence[str] = ()
+
+    def sample_for(self, claim: Claim) -> str:
+        """Name of the sample that judges a claim."""
+        return self.judged_by.get(claim.key, next(iter(self.samples)))
 
 
 @dataclass(frozen=True)
 class Computed:
-    """What there is of a paper: readings and maps by column, and its matrix."""
+    """What there is of a paper: readings by column, samples by name, and its findings."""
 
     paper: Paper
     readings: Mapping[str, Reading]
-    maps: Mapping[str, Joined]
-    found: Mapping[str, Mapping[str, Mapped]]
-    rechecks: Mapping[str, MapResults]
-    lines: Sequence[Line]
+    samples: Mapping[str, Sample]
+    specs: Mapping[str, Map]  # of the samples
+    found: Sequence[Found]
     times: Mapping[str, float]  # of processors, by study and map [s]
     out: Path
 
+    def of(self, key: str, part: str) -> Found:
+        """One finding."""
+        return next(f for f in self.found if (f.claim, f.part) == (key, part))
+
     @property
     def counts(self) -> Counter[str]:
-        """Claims by the outcome of the reading that decides."""
-        return Counter(line.verdict.outcome for line in self.lines)
-
-    @property
-    def tally(self) -> str:
-        """The same in words that follow "of its claims"."""
-        holds, fails, left = (self.counts[o] for o in (HOLDS, FAILS, UNDECIDED))
-        return (
-            f"{holds} hold{'s' * (holds == 1)} over most of what the paper leaves open, {fails} "
-            f"do{'es' * (fails == 1)} not, and {left} stay{'s' * (left == 1)} open"
-        )
-
-    def by(self, column: str, key: str, verb: str = "decided by") -> str:
-        """What decides a claim over a map, in words."""
-        clear = [d for d in self.found[column][key].deciders if d.p < CLEAR]
-        if not clear:
-            return "no unknown alone decides it"
-        names = (f"{'large' if d.holds_above else 'small'} {d.name}" for d in clear[:MOST_NAMED])
-        return f"{verb} {', '.join(names)}"
-
-    def part(self, column: str, key: str, name: str) -> str:
-        """Share of one part of a claim over a map, in percent."""
-        found = self.found[column][key].parts.get(name)
-        return percent_text(found.value) if found is not None and found.decided else "-"
+        """Findings by verdict."""
+        return Counter(found.judged.verdict for found in self.found)
 
 
 def load(folder: Path) -> Paper:
@@ -150,7 +123,7 @@ def load(folder: Path) -> Paper:
             del OWN[name]
             forget(file)
     try:
-        for name in ("claims", "outputs", "predict", "figures", "decides", "paper"):
+        for name in MODULES:
             sys.modules.pop(name, None)
         spec = importlib.util.spec_from_file_location("paper", folder / "paper.py")
         assert spec is not None and spec.loader is not None
@@ -163,130 +136,169 @@ def load(folder: Path) -> Paper:
 
 
 def run(paper: Paper, folder: Path, out: Path, *, workers: int, quick: bool) -> None:
-    """Compute what the folders of all readings, maps and rechecks lack."""
-    for file in (paper.readings, *(file for file, _ in paper.alone.values() if not quick)):
-        study = load_study(folder / file, overrides=QUICK if quick else None)
+    """Compute what the folders of all readings, samples and studies lack; ``quick``: two starts of
+    40 ms, four settings, no other study."""
+    changes = QUICK if quick else None
+    for file in dict.fromkeys(file for file, _ in paper.readings.values()):
+        study = load_study(folder / file, overrides=changes)
         if quick:
-            study = replace(study, repeat=replace(study.repeat, count=1))
+            study = replace(study, repeat=replace(study.repeat, count=2))
         run_study(study, out=_of(out, file), workers=workers, progress=Progress)
-    if quick:
-        return
-    for file in (*paper.studies, *paper.beside.values()):
+    for file in () if quick else paper.studies:
         run_study(load_study(folder / file), out=_of(out, file), workers=workers, progress=Progress)
-    for file in dict.fromkeys(
-        (*(f for files in paper.maps.values() for f in files), *paper.weighed)
-    ):
-        run_map(load_map(folder / file), out=_of(out, file), workers=workers, progress=Progress)
-    for file, points in paper.rechecks.items():
-        flexible = load_map(folder / file, overrides={"cage.model": "flexible"})
-        if paper.recheck_conditions:
-            kept = [c for c in flexible.conditions if c["label"] in paper.recheck_conditions]
-            flexible = replace(flexible, conditions=tuple(kept) or flexible.conditions)
-        where = _of(out, file).with_name(f"{Path(file).stem}_flexible")
-        run_map(flexible, out=where, points=points, workers=workers, progress=Progress)
-    if paper.stress is not None and not (out / STRESS).is_dir():
-        file, changes = paper.stress
-        case = flexcage.load_case(folder / file, overrides=changes)
-        flexcage.simulate(case, progress=Progress).draw(out / STRESS)
+    for file in _maps(paper):
+        spec = load_map(folder / file, overrides=changes)
+        spec = replace(spec, count=4, starts=1) if quick else spec
+        run_map(spec, out=_of(out, file), workers=workers, progress=Progress)
+
+
+def _maps(paper: Paper) -> list[str]:
+    return list(dict.fromkeys(file for files in paper.samples.values() for file in files))
 
 
 def _of(out: Path, file: str) -> Path:
     return out / Path(file).stem
 
 
-def collect(paper: Paper, out: Path) -> Computed:
-    """What the folders hold, judged."""
-    if not _of(out, paper.readings).is_dir():
-        raise flexcage.InputError(f"'{out}' lacks the paper's readings; compute them first.")
-    files = {column: (paper.readings, label) for label, column in paper.columns.items()}
-    readings = readings_of(out, {**files, **paper.alone}, paper.beside)
-    others = [StudyResults(_of(out, f)) for f in paper.studies if _of(out, f).is_dir()]
-    read = [*(results for r in readings.values() for results in r.studies), *others]
-    studies = {results.folder.path: results for results in read}
-    there = {
-        column: Joined([MapResults(_of(out, f)) for f in files if _of(out, f).is_dir()])
-        for column, files in paper.maps.items()
-    }
-    flexible = {f: _of(out, f).with_name(f"{Path(f).stem}_flexible") for f in paper.rechecks}
-    again = {f: MapResults(p) for f, p in flexible.items() if p.is_dir()}
-    if paper.recheck_column:
-        there[paper.recheck_column] = Joined(list(again.values()))
-    found = {
-        column: {c.key: mapped(c, joined) if joined.parts else not_mapped() for c in paper.claims}
-        for column, joined in there.items()
-    }
-    mapped_files = {f for files in paper.maps.values() for f in files}
-    screens = [_of(out, f) for f in paper.weighed if f not in mapped_files]
-    all_maps = [
-        *(part for column in paper.maps for part in there[column].parts), *again.values(),
-        *(MapResults(p) for p in screens if p.is_dir()),
-    ]  # fmt: skip
-    times = {
-        path.name: sum(row.seconds for row in results.stored.values())
-        for path, results in studies.items()
-    }  # fmt: skip
-    times |= {results.study.folder.path.name: results.seconds for results in all_maps}
-    computed = Computed(paper, readings, there, found, again, (), times, out)
-    starts = {column: cells_of_starts(paper.claims, r) for column, r in readings.items()}
-    starts |= {
-        column: {claim.key: Cell(UNDECIDED, "not computed") for claim in paper.claims}
-        for column in paper.alone if column not in readings
-    }  # fmt: skip
-    reasons = {claim.key: "" for claim in paper.claims}
-    lines = lines_of(paper.claims, starts, found, paper.decided_by, reasons)
-    computed = replace(computed, lines=lines)
-    if not all(joined.parts for joined in there.values()):  # reasons are those of maps
-        return computed
-    reasons = paper.words(computed).reasons
-    return replace(computed, lines=[replace(line, reason=reasons[line.key]) for line in lines])
+def check_designs(paper: Paper, folder: Path) -> list[str]:
+    """What is wrong with the designs of a paper's samples: unknowns that cannot be told apart."""
+    found = []
+    for file in _maps(paper):
+        spec = load_map(folder / file)
+        columns = len(spec.unknowns)
+        found += [f"{file}: {said}" for said in aliases(spec.shares[:, :columns], spec.names)]
+    return found
+
+
+def collect(paper: Paper, folder: Path, out: Path) -> Computed:
+    """What the folders hold, judged. Raises InputError where nothing was computed."""
+    maps = {file: MapResults(_of(out, file)) for file in _maps(paper) if _of(out, file).is_dir()}
+    if not maps:
+        raise flexcage.InputError(f"'{out}' lacks the paper's samples; compute them first.")
+    specs, samples = {}, {}
+    for name, files in paper.samples.items():
+        there = [file for file in files if file in maps]
+        if there:
+            specs[name] = load_map(folder / there[0])
+            samples[name] = sample_of(
+                [maps[file] for file in there], specs[name].unknowns, paper.drifting
+            )
+    readings = readings_of(out, paper.readings)
+    studies = [_of(out, f) for f in (*(f for f, _ in paper.readings.values()), *paper.studies)]
+    times = {p.name: _seconds(StudyResults(p)) for p in dict.fromkeys(studies) if p.is_dir()}
+    times |= {Path(file).stem: found.seconds for file, found in maps.items()}
+    computed = Computed(paper, readings, samples, specs, (), times, out)
+    return replace(computed, found=_judged(computed))
+
+
+def _seconds(results: StudyResults) -> float:
+    return sum(row.seconds for row in results.stored.values())
+
+
+def _judged(computed: Computed) -> list[Found]:
+    paper, found = computed.paper, []
+    mechanisms = paper.mechanisms(computed)
+    for claim in paper.claims:
+        name = paper.sample_for(claim)
+        if name not in computed.samples:
+            continue
+        for part, finding in claim.parts.items():
+            why = mechanisms.get(f"{claim.key}, {part}", "")
+            judged = judge(finding, computed.samples[name], why)
+            unknowns = computed.specs[name].unknowns
+            under = in_words(judged.region, unknowns) if judged.region else ""
+            found.append(Found(claim.key, claim.text, part, claim.where, judged, under))
+    return found
+
+
+def power_table(computed: Computed) -> Table:
+    """How often each rule reaches its verdict on samples that are true by construction."""
+    rows = []
+    for claim in computed.paper.claims:
+        name = computed.paper.sample_for(claim)
+        if name not in computed.samples:
+            continue
+        values = next(iter(computed.samples[name].values.values()))
+        for part, finding in claim.parts.items():
+            scatter = scatter_of(computed.paper, finding.outputs)
+            wins = verdicts(finding, claim.change, points=len(values), starts=values.shape[1],
+                            scatter=scatter, trials=20)[REPRODUCED]  # fmt: skip
+            rows.append(
+                (claim.key, part, f"{claim.change:.0%}", f"{scatter:.0%}", f"{wins / 20:.0%}")
+            )
+    return Table(
+        "Power: how often a finding that is true by construction is found to be reproduced",
+        ("claim", "finding", "change", "scatter of starts", "found"), rows,
+    )  # fmt: skip
+
+
+def scatter_of(paper: Paper, outputs: Sequence[str]) -> float:
+    """Scatter of starts of the noisiest of some outputs."""
+    return max(paper.scatter.get(output, 0.05) for output in outputs)
 
 
 def write(computed: Computed, folder: Path) -> Path:
-    """The page, its pictures and its CSV files, beside the paper's files. Raises InputError where a
-    map is not there."""
-    if not all(joined.parts for joined in computed.maps.values()):
-        raise flexcage.InputError(f"'{computed.out}' lacks a map of the paper; compute it first.")
-    paper, words = computed.paper, computed.paper.words(computed)
-    write_shares(computed.found, folder / "shares.csv")
-    found = {
-        Path(file).stem: weigh(MapResults(_of(computed.out, file)), asked)
-        for file, asked in paper.weighed.items() if _of(computed.out, file).is_dir()
-    }  # fmt: skip
-    files, table = ("shares.csv", *paper.files), None
-    if any(found.values()):
-        write_indices(found, folder / "indices.csv")
-        files, table = (*files, "indices.csv"), weighed_table(found)
-    page = Page(
-        title=paper.title, summary=words.summary, lines=computed.lines,
-        pictures=paper.draw(computed, folder), tables=paper.tables(computed),
-        decides=words.decides,
-        readings=[
-            *words.readings,
-            f'"{paper.source}". Written on {date.today():%-d %B %Y} with flexcage '
-            f"{flexcage.__version__}; its runs took {_minutes(computed.times)}.",
-        ],
-        unknowns=next(iter(computed.maps.values())).unknowns(), weighed=table, files=files,
+    """The page, its appendix, pictures and tables, beside the paper's files."""
+    paper, draft = computed.paper, computed.paper.draft(computed, folder)
+    tables = write_tables(computed, folder)
+    open_ = Table(
+        "What the text leaves open", ("unknown", "range", "reason"),
+        [(u.name, u.in_words(), u.reason)
+         for u in {u.name: u for s in computed.specs.values() for u in s.unknowns}.values()],
     )  # fmt: skip
-    draw_matrix(page, folder / "matrix.png")
+    page = Page(
+        title=paper.title, source=paper.source, summary=draft.summary, hero=draft.hero,
+        model=draft.model, known=draft.known, figures=draft.figures, found=computed.found,
+        asks=draft.asks, cost=_cost(computed.times),
+        appendix=(open_, power_table(computed), *draft.appendix), history=draft.history,
+        files=(*tables, *draft.files),
+    )  # fmt: skip
     (folder / "README.md").write_text(compose(page), encoding="utf-8")
+    (folder / "appendix.md").write_text(compose_appendix(page), encoding="utf-8")
     if rows := paper.measured(computed):
         write_measured(rows, folder)
         write_index(folder.parent / "README.md")
     return folder / "README.md"
 
 
-def _minutes(times: Mapping[str, float]) -> str:
-    """Processor time of all runs, and of those of every study, in words."""
+def write_tables(computed: Computed, folder: Path) -> list[str]:
+    """Means of all outputs by setting and condition, and of every start of the readings, as CSV."""
+    files = []
+    for name, sample in computed.samples.items():
+        rows = [
+            {"setting": k, "condition": c, **dict(zip(sample.names, sample.shares[k].round(4)))}
+            | {o: v[k] for (o, at), v in sample.means.items() if at == c}
+            for k in range(len(sample.shares)) for c in sample.conditions
+        ]  # fmt: skip
+        files.append(f"settings_{name.replace(' ', '_')}.csv")
+        pd.DataFrame(rows).to_csv(folder / files[-1], index=False, float_format="%.4g")
+    rows = [
+        {"reading": column, "condition": c, "start": k}
+        | {o: reading.values(o, c)[k] for o in reading.results.about.outputs}
+        for column, reading in computed.readings.items() for c in reading.conditions
+        for k in range(len(reading.values(reading.results.about.outputs[0], c)))
+    ]  # fmt: skip
+    pd.DataFrame(rows).to_csv(folder / "starts.csv", index=False, float_format="%.4g")
+    return [*files, "starts.csv"]
+
+
+def _cost(times: Mapping[str, float]) -> str:
+    """Processor time of all runs, version and date, in words."""
     each = ", ".join(f"{name} {seconds / 60.0:,.0f}" for name, seconds in times.items())
     total = sum(times.values()) / 60.0
-    return f"{total:,.0f} minutes of processor time ({each})"
+    return (
+        f"Computed with flexcage {flexcage.__version__}, {date.today():%-d %B %Y}; "
+        f"{total:,.0f} minutes of processor time ({each})."
+    )
 
 
 def main(arguments: Sequence[str] | None = None) -> Computed:
-    """Compute what is missing of a paper, print a line for every claim, and write its page."""
+    """Compute what is missing of a paper, print a line for every finding, and write its page."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("folder", type=Path, help="of the paper")
-    parser.add_argument("--quick", action="store_true", help="short runs of one start, no map")
+    parser.add_argument(
+        "--quick", action="store_true", help="short runs, two starts, four settings"
+    )
     parser.add_argument("-o", "--out", type=Path, help="folder of what is computed")
     parser.add_argument("--workers", type=int, default=1, help="processes")
     parser.add_argument("--page", action="store_true", help="write the page from what is there")
@@ -296,10 +308,9 @@ def main(arguments: Sequence[str] | None = None) -> Computed:
     out = options.out or Path("runs") / f"{folder.name}{'_quick' * options.quick}"
     if not options.page:
         run(paper, folder, out, workers=options.workers, quick=options.quick)
-    computed = collect(paper, out)
-    write_verdicts(_of(out, paper.readings), verdicts_of(computed.lines, paper.source))
-    for line in computed.lines:
-        print(f"{line.key} {line.verdict.outcome:14} {line.claim} ({line.reason})")
+    computed = collect(paper, folder, out)
+    for found in computed.found:
+        print(f"{found.claim} {found.part}: {found.said}")
     if options.page:
         print(f"written: {write(computed, folder)}")
     return computed

@@ -239,5 +239,5 @@ def load_case(
 
 def sections() -> list[dataclasses.Field]:
     """Fields of a case in the order of texts and pages."""
-    fields = Case.__dataclass_fields__
+    fields = {field.name: field for field in dataclasses.fields(Case)}
     return [fields[name] for name in dict.fromkeys((*_ORDER, *fields))]

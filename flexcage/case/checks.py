@@ -137,10 +137,11 @@ def _find_in_name(case: CaseSections) -> Iterator[Finding]:
 
 
 def _find_in_materials(case: Any) -> Iterator[Finding]:
-    for where in ("bearing", "cage"):
-        material = getattr(getattr(case, where, None), "material", None)
+    for where in ("bearing.material", "bearing.element_material", "cage.material"):
+        part, _, key = where.partition(".")
+        material = getattr(getattr(case, part, None), key, None)
         if material is not None and material.density < _LEAST_DENSITY:
-            here = f"{where}.material.density"
+            here = f"{where}.density"
             yield (
                 here,
                 f"{here} is {describe(material.density, 'kg/m^3')}, far below that of any solid; "
@@ -540,11 +541,11 @@ def _find_in_laws(case: CaseSections) -> Iterator[Finding]:
                 f"{where}.friction.high_speed is {friction.high_speed:g}, but must be less than "
                 f"the traction's peak, {friction.peak:g}.",
             )
-        if spec.normal.law == "impact_step" and spec.normal.damping == 0.0:
+        if spec.normal.law in ("impact", "impact_step") and spec.normal.damping == 0.0:
             yield (
                 f"{where}.normal.damping",
-                f"{where}.normal.law is impact_step, but its damping is 0; give {where}.normal."
-                "damping, or take the law 'elastic'.",
+                f"{where}.normal.law is {spec.normal.law}, but its damping is 0; give "
+                f"{where}.normal.damping, or take the law 'elastic'.",
             )
 
 

@@ -165,8 +165,9 @@ def _value(table: Any, path: str) -> str:
 def grounds(case: CaseSections) -> dict[str, str]:
     """Where the values of a case come from: its preset's sources and those of its materials."""
     found = dict(load_preset(case.preset).sources) if case.preset else {}
-    if case.bearing.material.source:
-        found[case.bearing.material.name] = case.bearing.material.source
+    for material in (case.bearing.material, case.bearing.rolling_material):
+        if material.source:
+            found[material.name] = material.source
     if case.cage is None:
         return found
     if case.cage.material.source:

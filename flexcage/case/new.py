@@ -12,6 +12,7 @@ from typing import Any
 from flexcage.bearings.family import inference_of
 from flexcage.cages.cage_type import proposal_of
 from flexcage.case.case import load_case
+from flexcage.case.marked import of_mark, rolling, unmarked
 from flexcage.case.presets import NAMED
 from flexcage.case.sections import NO_CAGE
 from flexcage.core.binding import default_of, did_you_mean, to_table
@@ -23,6 +24,7 @@ from flexcage.geometry.full_complement import CAGED, FILLED, FULL, filled, reaso
 from flexcage.geometry.inference import (
     Candidate,
     Inference,
+    MarkedCage,
     Outline,
     ProposedCage,
     in_short,
@@ -68,23 +70,18 @@ def new_case(outline: Outline, source: str, *, cage: str | None = None) -> NewCa
         outline = replace(outline, complement=FILLED)
     if outline.complement != CAGED:
         return _without_cage(outline, source, inference, cage)
-    candidates = ranked(inference.candidates(outline))
+    candidates = [rolling(c) for c in ranked(inference.candidates(outline))]
     _check_cage(cage, candidates[0].bearing.element)
     usual = inference.cages[outline.type]
-    propose = proposal_of(cage or usual)
+    wanted = [None, outline.cage] if outline.cage and cage in (None, outline.cage.type) else [None]
     refused = None
-    for candidate in candidates:
-        try:
-            proposed = propose(candidate.bearing)
-            text = _text(outline, source, candidate, candidates, proposed)
-            load_case(text)
-        except InputError as exc:
-            refused = refused or exc
-            continue
-        return NewCase(
-            name=case_name(outline), text=text, outline=outline, source=source, chosen=candidate,
-            candidates=candidates,
-        )  # fmt: skip
+    while wanted:
+        marked = wanted.pop()
+        made, refused = _with_cage(outline, source, candidates, cage or usual, marked)
+        if made:
+            return made
+        if marked:
+            outline = unmarked(outline, marked)
     assert refused is not None  # there is a candidate, or ``ranked`` has raised
     if cage in (None, usual):
         raise refused
@@ -94,6 +91,31 @@ def new_case(outline: Outline, source: str, *, cage: str | None = None) -> NewCa
         where="cage.type",
         value=cage,
     )
+
+
+def _with_cage(
+    outline: Outline, source: str, candidates: Sequence[Candidate], cage: str,
+    marked: MarkedCage | None,
+) -> tuple[NewCase | None, InputError | None]:  # fmt: skip
+    """The case of the first candidate that leaves a cage of this type its place, or of that which
+    a mark names; or the first reason why none does."""
+    propose, refused = proposal_of(marked.type if marked else cage), None
+    for candidate in candidates:
+        try:
+            proposed = propose(candidate.bearing)
+            if marked:
+                proposed = of_mark(proposed, marked)
+            text = _text(outline, source, candidate, candidates, proposed)
+            load_case(text)
+        except InputError as exc:
+            refused = refused or exc
+            continue
+        made = NewCase(
+            name=case_name(outline), text=text, outline=outline, source=source, chosen=candidate,
+            candidates=candidates,
+        )  # fmt: skip
+        return made, None
+    return None, refused
 
 
 def _without_cage(outline: Outline, source: str, inference: Inference, cage: str | None) -> NewCase:
@@ -114,10 +136,10 @@ def _without_cage(outline: Outline, source: str, inference: Inference, cage: str
                 '"none" in [cage].',
                 where="cage.type",
             )
-        candidates = ranked(inference.full(outline))
+        candidates = [rolling(c) for c in ranked(inference.full(outline))]
         chosen = candidates[0]
     else:
-        candidates = ranked(inference.candidates(outline))
+        candidates = [rolling(c) for c in ranked(inference.candidates(outline))]
         bearing = filled(candidates[0].bearing, inference.count)
         reasons = {**candidates[0].reasons, inference.count: reason_of_count(bearing)}
         chosen = replace(candidates[0], bearing=bearing, reasons=reasons)

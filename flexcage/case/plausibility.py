@@ -107,6 +107,8 @@ def _bodies(case: Any) -> Iterator[tuple[str, Material, tuple[Usual, ...]]]:
     """Key and material of every body that has one, and between what its constants usually are."""
     if own := getattr(case.bearing, "material", None):
         yield "bearing.material", own, _RINGS
+    if rolling := getattr(case.bearing, "element_material", None):
+        yield "bearing.element_material", rolling, _RINGS
     for name in ("inner_ring", "outer_ring"):
         ring = getattr(case, name)
         if ring.bends and ring.material is not None:
@@ -211,6 +213,14 @@ def _of_other_steel(case: StaticCase) -> Iterator[Said]:
             OTHER_STEEL,
             "Ratings and lives are those of bearing steel (ISO 76, ISO 281), but bearing.material "
             f"is {own.name}, with {describe(own.youngs_modulus, 'GPa')}.",
+        )
+    elements = case.bearing.rolling_material
+    if elements.plane_strain_modulus > (1.0 + _STEEL) * steel >= own.plane_strain_modulus:
+        yield (
+            OTHER_STEEL,
+            f"Ratings are those of steel {case.bearing.element}s (ISO 76, ISO 281), but "
+            f"bearing.element_material is {elements.name}: C is the same for silicon nitride "
+            "(ISO 20056-1), and C0 is lower (ISO 20056-2), which flexcage does not compute.",
         )
     for name in ("inner_ring", "outer_ring"):
         ring = getattr(case, name)

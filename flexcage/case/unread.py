@@ -91,6 +91,7 @@ def _on_lands(bearing: Bearing, cage: Cage) -> Iterator[tuple[str, str]]:
 def _in_materials(case: StaticSections) -> Iterator[tuple[str, str]]:
     for name, why in _NEVER.items():
         yield f"bearing.material.{name}", why
+        yield f"bearing.element_material.{name}", why
         for ring in ("inner_ring", "outer_ring"):
             yield f"{ring}.material.{name}", why
     for ring in ("inner_ring", "outer_ring"):

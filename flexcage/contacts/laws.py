@@ -123,7 +123,7 @@ def traction(n, u, p, g, dg):
 
 @kernel(FRICTION_SIGNATURE)
 def step_coulomb(n, u, p, g, dg):
-    """ADAMS static/dynamic friction (paper 003)."""
+    """ADAMS static/dynamic friction."""
     for k in range(n):
         x = u[k]
         if x < p[V_STATIC]:
@@ -143,7 +143,7 @@ def step_coulomb(n, u, p, g, dg):
 
 @kernel(FRICTION_SIGNATURE)
 def ramp_coulomb(n, u, p, g, dg):
-    """Ambrosio's ramp (paper 004): none below v_static, full above."""
+    """Ambrosio's ramp: none below v_static, full above."""
     for k in range(n):
         x = u[k]
         if x <= p[V_STATIC]:
@@ -219,6 +219,10 @@ def _impact_parameters(law: NormalLaw, stiffness: float, exponent: float) -> Seq
     return stiffness, exponent, law.damping, law.full_damping_depth
 
 
+def _lankarani_parameters(law: NormalLaw, stiffness: float, exponent: float) -> Sequence[float]:
+    return stiffness, exponent, 0.75 * (1.0 - law.restitution**2), law.speed_floor
+
+
 def _traction_parameters(law: FrictionLaw) -> Sequence[float]:
     a, b, c, d = gupta_coefficients(law.peak, law.peak_speed, law.high_speed)
     return a, b, c, d, b - c * a
@@ -242,6 +246,8 @@ NORMAL_LAWS: dict[str, Any] = {
     "elastic": elastic,
     "restitution": restitution,
     "impact_step": impact_step,
+    "impact": impact_step,
+    "lankarani_nikravesh": restitution,
 }
 FRICTION_LAWS: dict[str, Any] = {
     "none": no_friction,
@@ -255,6 +261,8 @@ FRICTION_LAWS: dict[str, Any] = {
 NORMAL_PARAMETERS: dict[str, Callable[[Any, float, float], Sequence[float]]] = {
     "restitution": _restitution_parameters,
     "impact_step": _impact_parameters,
+    "impact": _impact_parameters,
+    "lankarani_nikravesh": _lankarani_parameters,
 }
 FRICTION_PARAMETERS: dict[str, Callable[[Any], Sequence[float]]] = {
     "traction": _traction_parameters,
@@ -362,10 +370,14 @@ def friction_parameters(law: FrictionLaw) -> np.ndarray:
     return p
 
 
-def normal_parameters(law: NormalLaw, stiffness: float, exponent: float) -> np.ndarray:
-    """Parameter vector (N_NORMAL,) of one slice's normal law; ``stiffness`` [N/m^exponent]."""
+def normal_parameters(
+    law: NormalLaw, stiffness: float, exponent: float, *, parts: int = 1
+) -> np.ndarray:
+    """Parameter vector (N_NORMAL,) of the normal law of one of the equal ``parts`` (slices, points)
+    of a contact, whose ``stiffness`` is that of them all [N/m^exponent]."""
     build = NORMAL_PARAMETERS.get(law.law, _elastic_parameters)
-    own = build(law, stiffness * law.stiffness_factor, exponent)
+    stiffness, exponent = law.elastic(stiffness, exponent)
+    own = build(law.shared_by(parts), stiffness * law.stiffness_factor / parts, exponent)
     p = _vector(own, N_NORMAL, f"normal law '{law.law}'")
     if p[STIFFNESS] < 0.0 or p[EXPONENT] < 1.0:
         raise InputError(
@@ -449,7 +461,8 @@ def pocket_line_law(
         raise InputError(
             f"The contact of a roller ({one}) on the cage's pocket ({other}) becomes as wide as "
             f"its bodies under {loads[1]:g} N, where no law of line contact holds; are "
-            "cage.material.youngs_modulus and bearing.material.youngs_modulus in the unit meant?",
+            "cage.material.youngs_modulus and bearing.material.youngs_modulus, or that of "
+            "bearing.element_material, in the unit meant?",
             where="cage.material.youngs_modulus",
             value=wall[0],
         )

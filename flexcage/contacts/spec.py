@@ -13,11 +13,14 @@ from flexcage.geometry.other_kinds import SURROUNDINGS
 
 # Names of laws, and the spec that a name brings along, None for the one below; ``contacts.laws``
 # registers further ones.
-NORMAL_LAWS: dict[str, type | None] = dict.fromkeys(("restitution", "impact_step", "elastic"))
+NORMAL_LAWS: dict[str, type | None] = dict.fromkeys(
+    ("restitution", "lankarani_nikravesh", "impact_step", "elastic")
+)
 FRICTION_LAWS: dict[str, type | None] = dict.fromkeys(
     ("traction", "step_coulomb", "ramp_coulomb", "none")
 )
 MOST_FRICTION = 100.0  # coefficient: clean metals in air have about 1; tests of limits take more
+_RETURNS, _IMPACTS = ("restitution", "lankarani_nikravesh"), ("impact_step", "impact")
 _STEPS = ("step_coulomb", "ramp_coulomb")
 _COULOMB = (*_STEPS, "decay_coulomb")
 _CREEP_END = {  # by law, the speed's field
@@ -30,30 +33,68 @@ class NormalLaw:
     """Normal force from penetration and its rate; stiffness follows from geometry and materials.
 
     ``restitution``: F = K d^n (1 + (lambda/v0) d'), lambda from the exact relation to e, v0 the
-    approach speed at the contact's onset (not below ``speed_floor``); ``impact_step``:
-    F = K d^n + STEP(d, 0, 0, full_damping_depth, damping) d' (ADAMS IMPACT, papers 000 and
-    003); ``elastic``: no damping. Forces are clipped at zero.
+    approach speed at the contact's onset (not below ``speed_floor``); ``lankarani_nikravesh``: the
+    same with 3 (1 - e^2)/4 for lambda, right near e = 1, while bodies rebound faster than a small e
+    says (H. M. Lankarani and P. E. Nikravesh, J. Mech. Des. 112 (1990) 369); ``impact_step``:
+    F = K d^n + STEP(d, 0, 0, full_damping_depth, damping) d' (ADAMS IMPACT); ``elastic``: no
+    damping. Forces are clipped at zero.
     """
 
     law: str = option("restitution", doc="name of the law", choices=NORMAL_LAWS)
     restitution: float = option(
-        0.9, doc="coefficient of restitution e", minimum=0.01, maximum=1.0, of=("restitution",),
+        0.9, doc="coefficient of restitution e", minimum=0.01, maximum=1.0, of=_RETURNS,
         assumption="no source gives one: 0.9 for oiled steel on steel, 0.7 elsewhere",
     )  # fmt: skip
     speed_floor: float = quantity(
-        "m/s", 0.05, doc="least onset speed v0", above=0.0, of=("restitution",),
+        "m/s", 0.05, doc="least onset speed v0", above=0.0, of=_RETURNS,
         assumption="bounds the damping",
     )  # fmt: skip
     damping: float = quantity(
-        "N*s/m", 0.0, doc="full damping of impact_step", minimum=0.0, of=("impact_step",)
+        "N*s/m", 0.0, doc="full damping of a whole contact", minimum=0.0, of=_IMPACTS
     )
     full_damping_depth: float = quantity(
-        "mm", 1e-5, doc="depth of full damping", above=0.0, of=("impact_step",),
+        "mm", 1e-5, doc="depth of full damping", above=0.0, of=_IMPACTS,
         assumption="0.01 mm, as in the published ADAMS model of examples/papers/c7010_centroid",
     )  # fmt: skip
     stiffness_factor: float = option(
         1.0, doc="multiplies the computed stiffness (studies)", minimum=1e-6, maximum=1e6
     )
+
+    def elastic(self, stiffness: float, exponent: float) -> tuple[float, float]:
+        """Stiffness [N/m^exponent] and exponent of a whole contact's elastic force, from those that
+        geometry and materials make."""
+        return stiffness, exponent
+
+    def shared_by(self, parts: int) -> NormalLaw:
+        """The law of one of so many equal parts (slices, points) of a contact, which share its
+        damping."""
+        return replace(self, damping=self.damping / parts) if parts > 1 else self
+
+
+@dataclass(frozen=True, kw_only=True)
+class OwnImpact(NormalLaw):
+    """``impact_step`` with a stiffness and an exponent of one's own, as ADAMS' IMPACT takes them:
+
+    F = K d0 (d/d0)^exponent with d0 = 1 mm, so K in N/mm is ADAMS' number in its units of N and mm.
+    """
+
+    law: str = option("impact", doc="name of the law", choices=NORMAL_LAWS)
+    stiffness: float = quantity(
+        "N/mm", 1e8, doc="force over penetration at a penetration of 1 mm", above=0.0,
+        assumption="1e5 N/mm, ADAMS's default of IMPACT",
+    )  # fmt: skip
+    exponent: float = option(
+        2.2, doc="exponent of the elastic force", minimum=1.0, maximum=4.0,
+        assumption="ADAMS's default of IMPACT",
+    )  # fmt: skip
+
+    def elastic(self, stiffness: float, exponent: float) -> tuple[float, float]:
+        """The law's own numbers in place of the computed ones."""
+        return self.stiffness * _ONE_MM ** (1.0 - self.exponent), self.exponent
+
+
+_ONE_MM = 1e-3  # m, the penetration at which ``OwnImpact`` has its stiffness
+NORMAL_LAWS["impact"] = OwnImpact
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,8 +103,7 @@ class FrictionLaw:
 
     ``traction``: Gupta's (A + B u) exp(-C u) + D through 0, the maximum ``peak`` at
     ``peak_speed`` and ``high_speed`` for large u; ``step_coulomb``: ADAMS static/dynamic with
-    cubic steps (paper 003); ``ramp_coulomb``: Ambrosio's ramp from v_static to v_dynamic
-    (paper 004).
+    cubic steps; ``ramp_coulomb``: Ambrosio's ramp from v_static to v_dynamic.
     """
 
     law: str = option("step_coulomb", doc="name of the law", choices=FRICTION_LAWS)

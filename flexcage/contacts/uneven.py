@@ -46,7 +46,7 @@ def uneven_race(
     wave = [getattr(bearing, f"{ring}_waviness{of}") for of in ("", "_order", "_azimuth")]
     spall, bend = getattr(bearing, f"{ring}_spall"), radius**2 / (2.0 * effective)
     half = 0.5 * spall.length / radius
-    felt = spread(effective, bearing.material.plane_strain_modulus) / radius if half else 0.0
+    felt = spread(effective, bearing.race_modulus) / radius if half else 0.0
     return np.array(wave, float), np.array([half, spall.azimuth, spall.depth, bend, felt])
 
 

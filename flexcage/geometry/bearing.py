@@ -22,6 +22,7 @@ from flexcage.core.units import typeset
 from flexcage.core.wings import FAMILIES, Parts
 from flexcage.geometry.cage import Cage, RingLimit
 from flexcage.geometry.film import Film, Oil
+from flexcage.geometry.materials import contact_modulus
 from flexcage.geometry.other_kinds import kind_of, named_kind
 
 if TYPE_CHECKING:
@@ -119,6 +120,8 @@ class Bearing:
         @property
         def material(self) -> Material: ...
         @property
+        def element_material(self) -> Material | None: ...
+        @property
         def inner_ring_mass(self) -> float: ...
         @property
         def outer_ring_mass(self) -> float: ...
@@ -166,6 +169,28 @@ class Bearing:
     def element_mass(self) -> float:
         """Mass of a rolling element [kg]; 0 for types that do not say."""
         return 0.0
+
+    @property
+    def rolling_material(self) -> Material:
+        """Material of the rolling elements: the rings', where no other is given."""
+        return getattr(self, "element_material", None) or self.material
+
+    @property
+    def is_hybrid(self) -> bool:
+        """Are elements and rings of different materials?"""
+        return self.rolling_material != self.material
+
+    @property
+    def of_what(self) -> str:
+        """Of what the elements are, in words, where it is something else than the rings."""
+        return f" of {self.rolling_material.name}" if self.is_hybrid else ""
+
+    @property
+    def race_modulus(self) -> float:
+        """E' of an element on a race, 2/((1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2) [Pa]."""
+        if not self.is_hybrid:
+            return self.material.plane_strain_modulus
+        return contact_modulus(self.material, self.rolling_material)
 
     @property
     def nominal_contact_angle(self) -> float:

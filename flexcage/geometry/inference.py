@@ -41,14 +41,25 @@ class ClearanceGroup:
 
 
 @dataclass(frozen=True, kw_only=True)
+class MarkedCage:
+    """A cage that a mark of a designation names: its type, and the name of its material."""
+
+    mark: str
+    meaning: str
+    type: str
+    material: str
+
+
+@dataclass(frozen=True, kw_only=True)
 class Outline:
     """What a catalogue says of a bearing: boundary dimensions [m] and basic load ratings [N].
 
     ``contact_angle`` [rad] of angular contact bearings; of roller bearings the ``design``, race
     diameters F and E and those of the ribs of both rings [m]; None where they have none, or where
     the designation names no group of ``clearance``. ``complement``: of what the ratings are, and
-    whether the bearing has a cage (``full_complement``). ``left_out``: what of the designation
-    flexcage has not, a sentence each.
+    whether the bearing has a cage (``full_complement``); ``cage`` and ``element_material`` (its
+    name): those that the designation names. ``left_out``: what else the designation says, a
+    sentence each.
     """
 
     type: str
@@ -66,6 +77,8 @@ class Outline:
     outer_rib_diameter: float | None = None
     clearance: ClearanceGroup | None = None
     complement: str = CAGED
+    cage: MarkedCage | None = None
+    element_material: str | None = None
     left_out: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:

@@ -23,7 +23,6 @@ from flexcage.report.cage_view import CageStress, cage_chart
 from flexcage.report.comparison import Abscissa, Output, comparison_charts
 from flexcage.report.extras import extra_figures
 from flexcage.report.tables import assumption_table
-from flexcage.report.verdicts import read_verdicts
 
 _FEWEST_CHARTS, _MOST_MARKS = 2, 16_000  # of comparisons, and of marks in all, to keep a page light
 _MOST_OPEN = 12  # charts that are not folded away
@@ -56,11 +55,9 @@ class StudyAccount:
 
 
 def study_page(account: StudyAccount) -> Page:
-    """The page: what was varied, verdicts and tables first; how to repeat it last."""
-    verdicts = read_verdicts(account.folder)
+    """The page: what was varied and tables first; how to repeat it last."""
     sections = [
         PageSection("What was varied", [_varied(account), *account.named]),
-        *([PageSection("Verdicts", [verdicts])] if verdicts else []),
         PageSection("Warnings", [Notices(account.failures, none="None.")]),
         PageSection("Results", [account.statistics, account.cases]),
         _comparison(account),

@@ -59,6 +59,7 @@ class Wear:
     dataset: xarray.Dataset
     friction_check: float
     cage: str = ""  # name of the cage's material, if it is known
+    elements: str = ""  # name of the elements' material, where it is not the rings'
 
     @property
     def depth_rate(self) -> float:
@@ -133,8 +134,15 @@ class Wear:
             f"{law.material}: k = {law.coefficient * 1e9:.3g} mm^3/(N m) (Archard)",
             f"source: {law.source or 'the user'}",
             *of_other(law.material, self.cage),
+            *self._against(),
         ]
         return "\n".join([*words, *([f"assumption: {law.assumption}"] if law.assumption else [])])
+
+    def _against(self) -> list[str]:
+        """A line on elements that are not of steel."""
+        if not self.elements:
+            return []
+        return [f"the coefficient is against steel, and the elements are of {self.elements}"]
 
     __str__ = table
 
@@ -156,7 +164,8 @@ def wear(
     slid = land_rubbing(ds, cage, land.on(bearing.land(cage)))
     table = _tabled(rubbing, ds, law.coefficient, windows, slid)
     check = found / lost if lost else float("nan")
-    return Wear(law, float(t[-1] - t[0]), table, check, cage.material.name)
+    elements = bearing.rolling_material.name if bearing.is_hybrid else ""
+    return Wear(law, float(t[-1] - t[0]), table, check, cage.material.name, elements)
 
 
 def _tabled(

@@ -3,15 +3,6 @@ from flexcage.study.axes import LatinHypercube as LatinHypercube
 from flexcage.study.axes import Points as Points
 from flexcage.study.axes import Sobol as Sobol
 from flexcage.study.axes import Zip as Zip
-from flexcage.study.claims import Below as Below
-from flexcage.study.claims import Between as Between
-from flexcage.study.claims import Claim as Claim
-from flexcage.study.claims import Together as Together
-from flexcage.study.claims import Trend as Trend
-from flexcage.study.claims import Turn as Turn
-from flexcage.study.decisions import Evidence as Evidence
-from flexcage.study.decisions import decide as decide
-from flexcage.study.looks import Looks as Looks
 from flexcage.study.maps import Map as Map
 from flexcage.study.maps import MapResults as MapResults
 from flexcage.study.maps import load_map as load_map

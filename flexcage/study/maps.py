@@ -28,7 +28,6 @@ from flexcage.core.writing import check_name
 from flexcage.core.writing import replace as replace_file
 from flexcage.study.about import key_of
 from flexcage.study.axes import Points
-from flexcage.study.claims import At
 from flexcage.study.folder import Folder
 from flexcage.study.origin import this_one
 from flexcage.study.plan import make_plan
@@ -45,8 +44,6 @@ if TYPE_CHECKING:
 FORMAT = 1
 FILE = "map.json"
 SAMPLE, CONDITION = "sample", "condition"  # columns of a map's tables
-
-Test = Callable[[At], "bool | None"]  # of a claim at one point of a map; None: not decided
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -242,28 +239,6 @@ class MapResults:
         sums = np.where(there, found, 0.0).sum(axis=1)
         return np.where(there.any(axis=1), sums / np.maximum(there.sum(axis=1), 1), np.nan)
 
-    def judge(self, test: Test) -> list[bool | None]:
-        """Outcome of a claim's ``test`` at every point; None where a figure that it asks for is
-        missing, or it decides nothing."""
-        known: dict[tuple[str, str], np.ndarray] = {}
-        outcomes: list[bool | None] = []
-        for row in range(len(self.shares)):
-
-            def at(output: str, condition: str, row: int = row) -> float:
-                key = output, condition
-                if key not in known:
-                    known[key] = self.means(*key)
-                if not np.isfinite(known[key][row]):
-                    raise _Missing
-                return float(known[key][row])
-
-            try:
-                found = test(at)
-                outcomes.append(None if found is None else bool(found))
-            except _Missing:
-                outcomes.append(None)
-        return outcomes
-
     def indices(self, output: str, condition: str) -> list[Index]:
         """How strongly every unknown, and the dummy, moves an output (``sensitivity.indices``)."""
         return indices(self.about["design"], self.shares, self.names,
@@ -299,7 +274,3 @@ class MapResults:
                            for name in self.study.about.outputs}
                     )  # fmt: skip
         return pd.DataFrame(rows)
-
-
-class _Missing(Exception):
-    """A figure that a claim asks for is not there."""

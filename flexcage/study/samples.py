@@ -14,16 +14,10 @@ from flexcage.core.errors import InputError
 if TYPE_CHECKING:
     from flexcage.study.results import StudyResults
 
-_NORMAL = 1.959963984540054  # half the width of a 95 % interval over its standard deviation
-
 
 @dataclass(frozen=True, eq=False)
 class Samples:
-    """Values ``y`` (n,) [SI, ``unit``] of an output at ``x`` (n, d), in the units of tables.
-
-    ``within`` is the mean variance of a value by the intervals that runs give themselves, NaN where
-    they give none. ``cautions`` are those of the study.
-    """
+    """Values ``y`` (n,) [SI, ``unit``] of an output at ``x`` (n, d) in the units of tables."""
 
     output: str
     unit: str
@@ -31,7 +25,6 @@ class Samples:
     titles: tuple[str, ...]  # with units
     x: np.ndarray
     y: np.ndarray
-    within: float
     cautions: tuple[str, ...] = ()
 
     @property
@@ -52,11 +45,6 @@ class Samples:
 
     def unscaled(self, z: np.ndarray) -> np.ndarray:
         return self.low + 0.5 * (z + 1.0) * (self.high - self.low)
-
-    @property
-    def starts(self) -> float:
-        """Values a place, on average."""
-        return len(self.y) / len(np.unique(self.x, axis=0))
 
 
 def samples_of(
@@ -83,16 +71,9 @@ def samples_of(
     if table.empty:
         raise InputError(f"No finished case of the study has a value of '{output}'.", where="study")
     titles = _chosen(table, names, axes)
-    hashes = set(table["hash"])
-    margins = [
-        row.figures[output].margin for row in results.rows if row.planned.hash in hashes
-    ]  # fmt: skip
-    known = [m for m in margins if m is not None and np.isfinite(m)]
     return Samples(
         output, results.known[output].unit, tuple(map(_path, titles)), tuple(titles),
         table[titles].to_numpy(float), table[results.titles[output]].to_numpy(float),
-        float(np.mean((np.array(known) / _NORMAL) ** 2)) if len(known) == len(margins)
-        else float("nan"),
         tuple(results.cautions()),
     )  # fmt: skip
 

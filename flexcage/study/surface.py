@@ -1,5 +1,4 @@
-"""A response surface over the axes of a study: its least value, where, how sure, and what would
-decide if nothing does.
+"""A response surface over the axes of a study: its least value, where, and how sure.
 
 Two models: a quadratic by least squares (``quadratic``) and Kriging with noise (``kriging``).
 """
@@ -18,7 +17,6 @@ from scipy.stats import qmc
 from flexcage.core.digits import number_text, texts_with_margin
 from flexcage.core.errors import InputError
 from flexcage.results.export import frame_to_csv
-from flexcage.study.decide import FLAT, Needed, needed
 from flexcage.study.kriging import Kriging, fit_kriging
 from flexcage.study.quadratic import Quadratic, fit_quadratic
 from flexcage.study.samples import Samples, samples_of
@@ -29,6 +27,7 @@ if TYPE_CHECKING:
     from flexcage.study.results import StudyResults
 
 MODELS = ("quadratic", "kriging")
+FLAT = 0.05  # probability by chance, above which a surface counts as flat within noise
 _GRID = {1: 201, 2: 31, 3: 9}  # candidates an axis; beyond, a Sobol sequence of
 _MANY = 1024
 _ZOOMS = 3  # times that a region is looked at closer
@@ -59,7 +58,6 @@ class Surface:
     models: Mapping[str, Quadratic | Kriging]
     places: np.ndarray
     optima: Mapping[str, Optimum]
-    needed: Needed
 
     def values(self, model: str) -> tuple[np.ndarray, np.ndarray]:
         """The model's surface and the half widths of its 95 % intervals (n,) at all places."""
@@ -95,7 +93,7 @@ class Surface:
         return [path, surface_picture(self, path.with_suffix(".png"))]
 
     def report(self) -> str:
-        """Models, optima with their regions, and what would decide, as lines of text."""
+        """Models and optima with their regions, as lines of text."""
         s, way = self.samples, "highest" if self.highest else "least"
         lines = [
             *s.cautions,
@@ -114,7 +112,7 @@ class Surface:
             share = 100.0 * optimum.inside.mean()
             known = f"{share:.2g} %" if share else f"less than {100.0 / len(self.places):.1g} %"
             lines.append(f"  it holds {known} of the box")
-        return "\n".join([*lines, "", *self.needed.lines()])
+        return "\n".join(lines)
 
     def _place(self, optimum: Optimum) -> str:
         return ", ".join(f"{t} = {_short(v)}" for t, v in zip(self.samples.titles, optimum.place))
@@ -148,7 +146,6 @@ def response_surface(
     where: Mapping[str, str] | None = None,
     highest: bool = False,
     models: Sequence[str] = MODELS,
-    matters: float = 0.05,
 ) -> Surface:
     """Surfaces through an output of a finished study, which its folder may name; other arguments as
     in ``samples_of`` and ``surface_through``."""
@@ -157,7 +154,7 @@ def response_surface(
 
         results = StudyResults(results)
     samples = samples_of(results, output, axes=axes, where=where)
-    return surface_through(samples, highest=highest, models=models, matters=matters)
+    return surface_through(samples, highest=highest, models=models)
 
 
 def surface_through(
@@ -165,33 +162,23 @@ def surface_through(
     *,
     highest: bool = False,
     models: Sequence[str] = MODELS,
-    matters: float = 0.05,
 ) -> Surface:
-    """Surfaces through samples and where they are least, or ``highest``. ``matters`` is the range
-    over the box, as a share of the mean, below which a difference is of no interest."""
-    if not 0.0 < matters < 10.0:
-        raise InputError(
-            f"matters is {matters:g}, but must be greater than 0 and less than 10, a share of the "
-            "mean.",
-            where="matters",
-            value=matters,
-        )
+    """Surfaces through samples and where they are least, or ``highest``."""
     for model in models:
         if model not in MODELS:
             raise InputError(
                 f"There is no model '{model}'; choose from {', '.join(MODELS)}.", where="models"
             )
     y = -samples.y if highest else samples.y
-    quadratic = fit_quadratic(samples.z, y)
     fits: dict[str, Quadratic | Kriging] = {}
     for model in models:
-        fits[model] = quadratic if model == "quadratic" else fit_kriging(samples.z, y)
+        fits[model] = (fit_quadratic if model == "quadratic" else fit_kriging)(samples.z, y)
     places = _grid(np.array([[-1.0], [1.0]]).repeat(len(samples.axes), axis=1))
     optima = {
         name: _optimum(fit, places, samples, -1.0 if highest else 1.0)
         for name, fit in fits.items()
     }  # fmt: skip
-    return Surface(samples, highest, fits, places, optima, needed(samples, quadratic, matters))
+    return Surface(samples, highest, fits, places, optima)
 
 
 def _grid(box: np.ndarray) -> np.ndarray:

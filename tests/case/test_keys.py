@@ -7,6 +7,7 @@ import pytest
 
 from flexcage.bearings import in_motion
 from flexcage.case import Case, keys, load_case
+from flexcage.case.keys import groups
 from flexcage.case.presets import load_preset, preset_names
 from flexcage.cli import main
 from flexcage.core.binding import flat
@@ -112,6 +113,12 @@ def test_a_page_is_what_its_command_prints(page, tmp_path):
     command = re.search(r"`flexcage ([^`]*)`", text)[1].split()
     assert main([*command, "-o", str(tmp_path / page)]) == 0
     assert (tmp_path / page).read_text("utf-8") == text
+
+
+def test_a_page_lists_keys_alone():
+    """What a class says of itself beside its fields is no key."""
+    every = {key.path for group in groups() for key in group.keys}
+    assert "bearing.element_material" in every and "elsewhere" not in every
 
 
 def test_the_pages_hold_every_section():

@@ -5,13 +5,20 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from law_checks import check_friction_law, check_normal_law
-from law_values import friction, normal, rolling
+from law_values import friction, normal, rolling, strike
 from scipy.integrate import quad
+from scipy.optimize import brentq
 
 from flexcage.case.presets import load_preset
 from flexcage.contacts import laws
 from flexcage.contacts.spec import FRICTION_LAWS as FRICTION_SPECS
-from flexcage.contacts.spec import EhlTraction, FrictionLaw, Lubricant, NormalLaw
+from flexcage.contacts.spec import (
+    EhlTraction,
+    FrictionLaw,
+    Lubricant,
+    NormalLaw,
+    OwnImpact,
+)
 from flexcage.core.jit import kernel
 
 HERTZ_BALL = 8.69343e9  # N/m^1.5, ball of a 7010C
@@ -33,6 +40,8 @@ NORMAL_SPECS = {
     "elastic": NormalLaw(law="elastic"),
     "restitution": NormalLaw(law="restitution", restitution=0.6),
     "impact_step": NormalLaw(law="impact_step", damping=800.0, full_damping_depth=1e-5),
+    "impact": OwnImpact(damping=800.0),
+    "lankarani_nikravesh": NormalLaw(law="lankarani_nikravesh", restitution=0.6),
 }
 
 
@@ -142,9 +151,35 @@ def test_preset_slices_share_one_stiffness():
     bearing = load_preset("N1013").bearing
     modulus = bearing.material.plane_strain_modulus
     whole = laws.iso_line_stiffness(bearing.effective_length, modulus)
-    p = laws.normal_parameters(NormalLaw(law="elastic"), whole / 15, 10 / 9)
+    p = laws.normal_parameters(NormalLaw(law="elastic"), whole, 10 / 9, parts=15)
     force = normal(laws.elastic, p, np.full(15, 3e-6), np.zeros(15))[0].sum()
     assert force == pytest.approx(whole * 3e-6 ** (10 / 9), rel=1e-12)
+
+
+def test_an_impact_of_ones_own_is_that_of_adams():
+    """By default 1e5 N/mm and an exponent of 2.2: 25 um of penetration give 1e5 * 0.025^2.2 N, and
+    10 N s/mm damp from 0.1 mm on (its default as well), whatever geometry and materials are."""
+    spec = OwnImpact(damping=1e4, full_damping_depth=1e-4)
+    p = laws.normal_parameters(spec, LINE, 10 / 9, parts=15)
+    force = normal(laws.impact_step, p, np.full(15, 25e-6), np.zeros(15))[0].sum()
+    assert force == pytest.approx(1e5 * 0.025**2.2, rel=1e-12)
+    damped = normal(laws.impact_step, p, np.full(15, 0.2e-3), np.full(15, 0.01))[0].sum()
+    assert damped == pytest.approx(1e5 * 0.2**2.2 + 1e4 * 0.01, rel=1e-12)
+    one = laws.normal_parameters(spec, LINE, 10 / 9)
+    _, elastic, _, damping = (x[0] for x in normal(laws.impact_step, one, [0.2e-3], [0.01]))
+    assert damping == 1e4 and elastic == pytest.approx(1e5 * 0.2**2.2, rel=1e-12)
+
+
+@pytest.mark.parametrize(("e", "miss"), [(0.98, 1e-3), (0.9, 0.02), (0.7, 0.1)])
+def test_a_body_rebounds_by_lankarani_and_nikravesh_as_theory_has_it(e, miss):
+    """A mass that strikes loses (1 - e^2) of its energy to first order: near e = 1 it rebounds at
+    e, at small e faster. With chi = 3 (1 - e^2)/4 the exact ratio r of speeds solves
+    ln[(1 + chi)/(1 - chi r)] = chi (1 + r)."""
+    p = laws.normal_parameters(NormalLaw(law="lankarani_nikravesh", restitution=e), HERTZ_BALL, 1.5)
+    chi = 0.75 * (1.0 - e * e)
+    r = brentq(lambda r: np.log((1 + chi) / (1 - chi * r)) - chi * (1 + r), 0.1, 1.0)
+    found = strike(laws.restitution, p, 2.7173e-3, 0.5).restitution
+    assert found == pytest.approx(r, abs=1e-6) and e <= r < e + miss
 
 
 @pytest.mark.parametrize(

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-
 import numpy as np
 from ring_with_pockets import Z, ring_mesh
 
@@ -132,23 +130,8 @@ def account(name: str = "small", **changes) -> RunAccount:
     return RunAccount(**values)
 
 
-VERDICTS = {
-    "format": 1,
-    "verdicts": [
-        {
-            "key": "a-1", "claim": "It slips.", "outcome": "holds",
-            "figures": [{"label": "slip", "value": 1.234, "margin": 0.1, "unit": "%"}],
-            "range": "all clearances", "reason": "", "source": "a paper, section 2",
-        },
-        {"key": "a-2", "claim": "It stands.", "outcome": "does not hold", "figures": []},
-        {"key": "a-3", "claim": "It sings.", "outcome": "undecided", "figures": []},
-    ],
-}  # fmt: skip
-
-
 def study_account(folder, **changes) -> StudyAccount:
     """What a report tells of a study of three loads, one of which failed."""
-    (folder / "verdicts.json").write_text(json.dumps(VERDICTS), encoding="utf-8")
     loads, slip = [10.0, 9.0, 100.0], np.array([0.5, 0.7, np.nan])
     rows = [[number(k), number(load), number(s)] for k, (load, s) in enumerate(zip(loads, slip))]
     points = [f"load = {load:g} N" for load in loads]

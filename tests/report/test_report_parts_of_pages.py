@@ -1,8 +1,7 @@
-"""What pages are made of: thinned curves, split surfaces, verdicts, escaped texts."""
+"""What pages are made of: thinned curves, split surfaces, escaped texts."""
 
 from __future__ import annotations
 
-import json
 import re
 from html.parser import HTMLParser
 from pathlib import Path
@@ -14,7 +13,6 @@ from report_parts import (
     PEAK,
     SPIKE,
     SPIKE_AT,
-    VERDICTS,
     account,
     cage_stress,
     dataset,
@@ -42,9 +40,8 @@ from flexcage.report.run_page import run_page
 from flexcage.report.study_page import study_page
 from flexcage.report.tables import filled
 from flexcage.report.thinning import thinned
-from flexcage.report.verdicts import read_verdicts
 from flexcage.results.row import SummaryRow
-from flexcage.results.summary import PageSection as Part
+from flexcage.results.summary import Section as Part
 from flexcage.results.summary import Summary
 
 
@@ -333,38 +330,6 @@ def test_a_page_that_cannot_be_written(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(InputError, match="cannot be written"):
         write_page(Page("A", "", []), tmp_path / "file" / "a.html")
-
-
-def test_verdicts_are_read(tmp_path):
-    assert read_verdicts(tmp_path) is None
-    (tmp_path / "verdicts.json").write_text(json.dumps(VERDICTS))
-    table = read_verdicts(tmp_path)
-    assert table.caption.startswith("3 claims: 1 holds, 1 does not hold, 1 undecided.")
-    first, second, third = table.cells
-    assert [cell.text for cell in first[:5]] == [
-        "a-1: It slips.", "✔ holds", "slip: 1.23 ± 0.10 %", "", "all clearances",
-    ]  # fmt: skip
-    assert second[1].text == "✘ does not hold" and third[1].text == "? undecided"
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("{", "cannot be read as JSON"),
-        ("[]", "is of format None"),
-        ('{"format": 2}', "is of format 2, and this flexcage reads format 1"),
-        ('{"format": 1}', "lacks its list of verdicts"),
-        ('{"format": 1, "verdicts": [{"key": "k", "outcome": "maybe"}]}', "'k' has the outcome"),
-        (
-            '{"format": 1, "verdicts": [{"outcome": "holds", "figures": 3}]}',
-            "a list of tables",
-        ),
-    ],
-)
-def test_verdicts_that_are_none_get_a_sentence(tmp_path, text, words):
-    (tmp_path / "verdicts.json").write_text(text)
-    with pytest.raises(InputError, match=re.escape(words)):
-        read_verdicts(tmp_path)
 
 
 def test_figures_of_a_folder(tmp_path):

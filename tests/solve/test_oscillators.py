@@ -58,8 +58,8 @@ class Problem:
         )  # fmt: skip
         ys, yds = np.zeros((2, len(times), len(y0)))
         outcome, _, _ = method.advance(
-            self.functions(), None, st, method.Options(h, 1e-12, 100_000), end, times, ys, yds, 0,
-            np.zeros((100_000, 5)), np.zeros((len(times), 1)),
+            self.functions(), None, st, method.RungeKuttaOptions(h, 1e-12, 100_000), end,
+            times, ys, yds, 0, np.zeros((100_000, 5)), np.zeros((len(times), 1)),
         )  # fmt: skip
         assert outcome == contract.DONE
         return st, ys, yds

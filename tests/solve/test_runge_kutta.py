@@ -52,7 +52,7 @@ def run(method, problem, *, tolerance, end=5.0, h0=1e-3, h_max=1.0, h_min=1e-12,
     ys, yds, quads = np.zeros((len(times), len(y0))), np.zeros((len(times), len(y0))), None
     quads = np.zeros((len(times), 1))
     log, first, rows = np.zeros((log_rows, 5)), 0, []
-    options = method.Options(h_max, h_min, max_steps)
+    options = method.RungeKuttaOptions(h_max, h_min, max_steps)
     while True:
         outcome, first, filled = method.advance(
             problem.functions(), None, st, options, end, times, ys, yds, first, log, quads

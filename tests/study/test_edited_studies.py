@@ -26,7 +26,6 @@ from flexcage.study.results import StudyResults
 from flexcage.study.samples import samples_of
 from flexcage.study.surface import surface_through
 from flexcage.study.unknowns import Unknown
-from flexcage.study.verdicts import read_verdicts
 
 HERE = this_one()
 LOADS = Grid("load.radial", ["500 N", "1000 N", "2000 N", "3000 N", "4000 N"])
@@ -113,12 +112,6 @@ def test_a_text_nested_too_deep_is_refused(done, capsys, name):
     assert cli.main(["study", "report", str(done.path)]) == 2
     said = capsys.readouterr().err
     assert said.count("\n") == 1 and str(done.path) in said
-
-
-def test_verdicts_nested_too_deep_are_refused(done):
-    (done.path / "verdicts.json").write_text(DEEP)
-    with pytest.raises(InputError, match="does not hold verdicts .*nested too deep"):
-        read_verdicts(done.path)
 
 
 def test_a_case_in_the_place_of_another_is_refused(done):

@@ -11,13 +11,11 @@ from study_cases import short_case
 from flexcage.case import load_extension
 from flexcage.cli import main
 from flexcage.core.errors import InputError
-from flexcage.render.claim_map import draw_claim_map
-from flexcage.study.claims import Trend
 from flexcage.study.map_report import map_text, write_map
 from flexcage.study.maps import Map, MapResults, load_map, run_map
 from flexcage.study.outputs import check_outputs, never_negative
 from flexcage.study.own import register_outputs
-from flexcage.study.sensitivity import share
+from flexcage.study.results import StudyResults
 from flexcage.study.unknowns import Unknown
 
 OWN = Path(__file__).with_name("my_outputs.py")
@@ -86,29 +84,13 @@ def test_a_map_that_grows_computes_only_what_is_new(done):
     assert {case: case.stat().st_mtime_ns for case in cases} == cases
 
 
-def test_a_claim_is_judged_at_every_point(done):
-    _, results, _ = done
-    found = results.judge(Trend("cage_speed", ("slow", "fast")).holds)
-    assert found == [True] * len(found) and share(found).value == 1.0
-    assert not any(results.judge(Trend("cage_speed", ("fast", "slow")).holds))
-    assert results.judge(lambda at: None) == [None] * len(found)
-    with pytest.raises(InputError, match="no output 'tilt' under a condition 'slow'"):
-        results.judge(lambda at: at("tilt", "slow") > 0)
-
-
-def test_what_a_map_says_and_writes(done, tmp_path):
+def test_what_a_map_says_and_writes(done):
     _, results, _ = done
     text = map_text(results)
     assert "unknowns (sample, seed 1), 2 conditions, 2 starts each" in text
     assert "my_samples, slow: no first-order index" in text  # too few points
     names = [path.name for path in write_map(results)]
     assert names == ["map.csv"]
-    picture = draw_claim_map(
-        tmp_path / "map.png", title="A claim", subtitle="where it holds", names=results.names[:-1],
-        ranges=results.about["ranges"], shares=results.shares,
-        outcomes=[k % 3 > 0 for k in range(len(results.shares))],
-    )  # fmt: skip
-    assert picture.stat().st_size > 5000
 
 
 def test_the_command_goes_on_with_a_map(done, tmp_path, capsys):
@@ -117,6 +99,18 @@ def test_the_command_goes_on_with_a_map(done, tmp_path, capsys):
     assert main(["study", "map", str(folder.parent / "map.toml"), "-o", str(folder)]) == 0
     assert "8 done" in capsys.readouterr().out
     assert {case: case.stat().st_mtime_ns for case in cases} == cases
+
+
+def test_the_command_computes_some_points_on_another_mesh(done, tmp_path, capsys):
+    _, results, _ = done
+    file, other = results.study.folder.path.parent / "map.toml", tmp_path / "fine"
+    command = ["study", "map", str(file), "-o", str(other), "--workers", "1"]
+    assert main([*command, "--points", "1", "--fineness", "medium"]) == 0
+    assert "4 done" in capsys.readouterr().out  # two conditions of two starts
+    assert StudyResults(other).about.base["mesh"]["fineness"] == "medium"
+    with pytest.raises(SystemExit):
+        main([*command, "--points", "1,x"])
+    assert "should be whole numbers, as 0,3,17" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
@@ -183,9 +177,9 @@ def test_unknowns_are_checked_before_anything_runs():
 
 
 def test_the_map_of_the_page_loads(tmp_path):
-    """The map that examples/claims.md prints, on the example's case."""
+    """The map that examples/unknowns.md prints, on the example's case."""
     examples = Path(__file__).parents[2] / "examples"
-    text = (examples / "claims.md").read_text("utf-8")
+    text = (examples / "unknowns.md").read_text("utf-8")
     toml = text.split("```toml\n")[1].split("```")[0]
     file = tmp_path / "map.toml"
     file.write_text(toml.replace("c7010.toml", str(examples / "c7010.toml")))

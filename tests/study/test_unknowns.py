@@ -114,20 +114,5 @@ def test_morris_and_a_plain_sample_see_what_moves_an_output_above_noise():
     assert not any(i.value for i in sensitivity.indices("sample", u, "abcd", np.ones(len(u))))
 
 
-def test_the_share_of_a_range_and_what_decides_it():
-    """Clopper and Pearson's interval of 10 in 20 is 27.2 to 72.8 %."""
-    found = sensitivity.share([True, False] * 10 + [None])
-    assert (found.holds, found.decided, found.open) == (10, 20, 1)
-    assert (found.low, found.high) == (pytest.approx(0.2720, abs=1e-4),
-                                       pytest.approx(0.7280, abs=1e-4))  # fmt: skip
-    assert str(found) == "50 % (27 % to 73 %)"
-    assert str(sensitivity.share([None])) == "no point decides"
-    u = design_of("sample", 64, 4, 3)
-    by = sensitivity.deciders(u, ["a", "b", "c", "(start)"], list(u[:, 1] > 0.6))
-    assert by[0].name == "b" and by[0].distance == 1.0 and by[0].holds_above
-    assert all(d.p > 0.05 for d in by[1:])
-    assert sensitivity.deciders(u, "abcd", [True] * 64) == []
-
-
 def test_the_dummy_changes_nothing():
     assert unknowns.DUMMY not in {path for u in (FRICTION, SHAPE) for path in u.all_paths}

@@ -27,6 +27,7 @@ FILTERS = {"spikes_5k": 5e3, "spikes_20k": 20e3}  # Hz, beside the 10 kHz of ``s
 TOO_LITTLE = 1e-9  # m or rad/s: what does not move has no spectrum
 UNITS = {
     "lost": "",  # 1 where the cage's centre went further from the axis than any guidance allows
+    "drifts": "",  # 1 where the whirl of the record's halves differs
     "away": "mm",  # largest distance of the cage's centre from the axis
     "cage_speed_mean": "rpm",
     "cage_slip": "%",
@@ -100,6 +101,7 @@ def cage_motion(ds, run) -> dict[str, float]:
         "reach": float(distance.std()),
         "reach_range": float(np.ptp(distance)),
         "place": float(distance.mean()),
+        "drifts": float(element_passes(ds, run.numbers).mean(whirl.values).drift > 1.0),
         "whirl": float(whirl.mean()),
         "scatter": float(whirl.std()),
         "line": share,

@@ -1,9 +1,9 @@
-"""What the paper on fluctuating speed claims, as rules and tests on figures of runs.
+"""What the paper on fluctuating speed claims, as findings with rules on figures of runs.
 
-Thresholds were written down before any run of a map.
+Rules were written down before any run of the samples.
 """
 
-from flexcage.study.claims import Between, Claim, Trend, Unchanged
+from judging.findings import Claim, Same, Trend, Within
 
 CONSTANT, A3, A6, A9, N2, N3 = "constant", "A 3 %", "A 6 %", "A 9 %", "N 2", "N 3"
 CONDITIONS = (CONSTANT, A3, A6, A9, N2, N3)
@@ -14,143 +14,108 @@ AMPLITUDE = {A3: 0.03, A6: 0.06, A9: 0.09, N2: 0.06, N3: 0.06}
 THREE = 0.03  # "within 3 %", Table 5
 HALF = 0.5  # of the cage speed's variance, from which its period is that of the ring
 CLOSE = 0.1  # "close to that of the ring": the printed 6.40 and 6.48 are 7 and 8 % above 6
-SAME = 0.005  # "largely unchanged": the printed means differ by 0.41 % at most
-ALIKE = 0.06  # "largely unchanged" over N: within the share 0.06, the printed ones within 0.013
+SAME = 0.01  # "largely unchanged": the printed means differ by 0.41 % at most
+ALIKE = 0.06  # "largely unchanged" over N: the printed ones are within 0.013
 FLOOR = 0.01  # "some degree of fluctuation" at constant speed; 2.89 % is printed
 NEAR = 0.005  # of the printed 922 (LS-DYNA) to 928 rpm (ADAMS): test and simulation of the paper
 ELLIPSE = 0.2  # stray of an orbit up to which it is nearly an ellipse
 NEARLY_ALL = 0.9  # of a variance
-SLIGHT = 0.05  # change from first to last below which nothing rises
 RPM = 0.10471975511965977
+#: Scatter of starts over their mean, of 26 November 2026 (eight starts).
+SCATTER = {
+    "swing": 0.02, "speed": 0.0005, "speed_whole": 0.001, "kinematics": 0.02, "follows": 0.05,
+    "distance": 0.1, "one_force": 0.1, "stray": 0.1, "ring_range": 0.05, "ripple": 0.05,
+    "by_place": 0.01,
+}  # fmt: skip
 
 
-def rises(output, least=SLIGHT):
-    """With the amplitude and with the frequency alike."""
-    return {
-        "with A": Trend(output, OVER_A, least=least),
-        "with N": Trend(output, OVER_N, least=least),
-    }
+def rises(output: str) -> dict[str, Trend]:
+    """With the amplitude and with the frequency, each judged alone."""
+    return {"with A": Trend(output, OVER_A), "with N": Trend(output, OVER_N)}
 
 
-def close_to_the_ring(condition):
+def close_to_the_ring(condition: str) -> Within:
+    """The cage's fluctuation is that of the ring."""
     share = AMPLITUDE[condition]
-    return Between("swing", (condition,), (1.0 - CLOSE) * share, (1.0 + CLOSE) * share)
+    return Within("swing", (condition,), (1.0 - CLOSE) * share, (1.0 + CLOSE) * share)
 
 
 CLAIMS = (
     Claim(
-        "002-0",
-        "At a constant 2000 rpm five kinematic quantities are within 3 % of equations 6 to 10",
-        "Table 5, conclusion 1",
-        {"all five": Between("kinematics", (CONSTANT,), high=THREE)},
-        ("kinematics",),
+        "002-0", "At a constant 2000 rpm five kinematic quantities are within 3 % of theory",
+        "Table 5, conclusion 1", {"all five": Within("kinematics", (CONSTANT,), high=THREE)},
     ),
     Claim(
-        "002-0b",
-        "The cage turns at 922 (LS-DYNA) to 928 rpm (ADAMS; test 927) of the 935 of kinematics",
-        "Figures 4 and 5, Table 5",
-        {"speed": Between("speed_whole", (CONSTANT,), (1 - NEAR) * 922 * RPM,
-                          (1 + NEAR) * 928 * RPM)},
-        ("speed_whole", "speed"),
+        "002-0b", "The cage turns at 922 to 928 rpm (test 927), not at the 935 of kinematics",
+        "Figures 4, 5, Table 5",
+        {"its size": Within("speed_whole", (CONSTANT,), (1 - NEAR) * 922 * RPM,
+                            (1 + NEAR) * 928 * RPM)},
     ),
     Claim(
-        "002-1",
-        "The cage's speed has the period of the ring's at 6 and 9 %, and at N = 2 and 3",
-        "Figures 6, 13",
-        {c: Between("follows", (c,), low=HALF) for c in (A6, A9, N2, N3)},
-        ("follows",),
+        "002-1", "The cage's speed has the period of the ring's at 6 and 9 %, and at N = 2 and 3",
+        "Figures 6, 13", {c: Within("follows", (c,), low=HALF) for c in (A6, A9, N2, N3)},
     ),
     Claim(
-        "002-1b",
-        "The cage's fluctuation grows with A and is close to the ring's at 6 and 9 %",
+        "002-1b", "The cage's fluctuation grows with A and is close to the ring's at 6 and 9 %",
         "Table 6, conclusion 2",
         {
-            "grows": Trend("swing", OVER_A, least=SLIGHT),
+            "grows": Trend("swing", OVER_A),
             "close at 6 %": close_to_the_ring(A6),
             "close at 9 %": close_to_the_ring(A9),
         },
-        ("swing",),
+        change=1.0,
     ),
     Claim(
-        "002-1c",
-        "The cage's mean speed is largely unchanged by A and N",
-        "Tables 6 and 7",
-        {"mean": Unchanged("speed", CONDITIONS, within=SAME)},
-        ("speed",),
+        "002-1c", "The cage's mean speed is largely unchanged by A and N", "Tables 6, 7",
+        {"mean": Same("speed", CONDITIONS, within=SAME)},
     ),
     Claim(
-        "002-2",
-        "At 3 % the cage's speed has no pronounced period",
-        "Figure 6",
-        {"no period": Between("follows", (A3,), high=HALF)},
-        ("follows",),
+        "002-2", "At 3 % the cage's speed has no pronounced period", "Figure 6",
+        {"no period": Within("follows", (A3,), high=HALF)},
     ),
     Claim(
-        "002-2b",
-        "At constant speed the cage's speed fluctuates too",
-        "Figure 13, Table 7",
-        {"a floor": Between("swing", (CONSTANT,), low=FLOOR)},
-        ("swing",),
+        "002-2b", "At constant speed the cage's speed fluctuates too", "Figure 13, Table 7",
+        {"a floor": Within("swing", (CONSTANT,), low=FLOOR)}, change=1.0,
     ),
     Claim(
-        "002-3",
-        "The cage's largest distance from the axis grows with A and with N",
-        "Figures 9 and 16",
+        "002-3", "The cage's largest distance from the axis grows", "Figures 9, 16",
         rises("distance"),
-        ("distance",),
     ),
     Claim(
-        "002-3b",
-        "The largest force between a ball and the cage grows with A and with N",
-        "Figures 8, 9, 15, 16",
+        "002-3b", "The largest force between a ball and the cage grows", "Figures 8, 9, 15, 16",
         rises("one_force"),
-        ("one_force",),
     ),
     Claim(
-        "002-4",
-        "The cage's orbit is nearly an ellipse at small A and irregular at large A",
+        "002-4", "The cage's orbit is nearly an ellipse at small A, irregular at large A",
         "Figure 7",
         {
-            "an ellipse at 0": Between("stray", (CONSTANT,), high=ELLIPSE),
-            "an ellipse at 3 %": Between("stray", (A3,), high=ELLIPSE),
-            "irregular at 9 %": Between("stray", (A9,), low=ELLIPSE),
+            "an ellipse at 0": Within("stray", (CONSTANT,), high=ELLIPSE),
+            "an ellipse at 3 %": Within("stray", (A3,), high=ELLIPSE),
+            "irregular at 9 %": Within("stray", (A9,), low=ELLIPSE),
         },
-        ("stray",),
+        change=1.0,
     ),
     Claim(
-        "002-4b",
-        "The cage's orbit becomes more disordered with A and with N",
-        "Figures 7 and 14",
-        rises("stray"),
-        ("stray",),
+        "002-4b", "The cage's orbit becomes more disordered", "Figures 7, 14", rises("stray"),
     ),
     Claim(
-        "002-5",
-        "The inner ring's largest distance from the axis grows with A and with N",
-        "Figures 10, 11, 17, 18",
-        rises("ring_distance", least=0.01),
-        ("ring_distance",),
+        "002-4c", "A leaves the frequency of the cage's speed unchanged", "Figure 6",
+        {"frequency": Same("main_frequency", (A6, A9), within=THREE)},
     ),
     Claim(
-        "002-5b",
-        "Balls' forces on the inner ring fluctuate more with A and with N",
-        "Figures 12 and 19",
+        "002-5", "The inner ring's orbit grows", "Figures 10, 11, 17, 18", rises("ring_range"),
+    ),
+    Claim(
+        "002-5b", "Balls' forces on the inner ring fluctuate more", "Figures 12, 19",
         rises("ripple"),
-        ("ripple",),
     ),
     Claim(
-        "002-6",
-        "A ball's force on the inner ring rises and falls with its place, because the load is "
-        "combined",
-        "Figure 12",
-        {"place": Between("by_place", (CONSTANT,), low=NEARLY_ALL)},
-        ("by_place",),
+        "002-6", "A ball's force on the inner ring follows its place, as the load is combined",
+        "Figure 12", {"place": Within("by_place", (CONSTANT,), low=NEARLY_ALL)},
     ),
     Claim(
-        "002-7",
-        "At 6 % the cage's fluctuation is the same at N = 1, 2, 3",
+        "002-7", "At 6 % the cage's fluctuation is the same at N = 1, 2, 3",
         "Table 7, conclusion 3",
-        {"same": Unchanged("swing", WAVES, within=ALIKE)},
-        ("swing",),
+        {"same": Same("swing", WAVES, within=ALIKE)},
     ),
 )  # fmt: skip

@@ -84,7 +84,10 @@ class BallBearing(Bearing):
     inner_spall: Spall = option(Spall(), doc="a pit of the inner race, which turns with its ring")
     outer_spall: Spall = option(Spall(), doc="a pit of the outer race")
     ball_spot: BallSpot = option(BallSpot(), doc="a pit or a flat on a ball")
-    material: Material = option(MATERIALS["GCr15"], doc="material of rings and balls")
+    material: Material = option(MATERIALS["GCr15"], doc="material of the rings, and of the balls")
+    element_material: Material | None = option(
+        None, doc="material of the balls, as Si3N4 (default: bearing.material)"
+    )
 
     @property
     def free_contact_angle(self) -> float:
@@ -145,7 +148,7 @@ class BallBearing(Bearing):
 
     @cached_property
     def ball_mass(self) -> float:
-        return self.material.density * pi / 6.0 * self.ball_diameter**3
+        return self.rolling_material.density * pi / 6.0 * self.ball_diameter**3
 
     @cached_property
     def ball_inertia(self) -> float:
@@ -237,12 +240,21 @@ class BallBearing(Bearing):
     @cached_property
     def contact_curvatures(self) -> tuple[float, float]:
         """Curvature [1/m] of the surface of contact across the rolling direction, inner and outer
-        race: the mean of the ball's and the groove's (Harris)."""
+        race: the mean of the ball's and the groove's (Harris), of two materials nearer to that of
+        the stiffer one, as either yields by its share of (1 - nu^2)/E."""
         inner, outer = (
-            0.5 * (2.0 / self.ball_diameter + 1.0 / radius)
+            self._stays * 2.0 / self.ball_diameter + (1.0 - self._stays) * 1.0 / radius
+            if self.is_hybrid
+            else 0.5 * (2.0 / self.ball_diameter + 1.0 / radius)
             for radius in (self.inner_groove_radius, self.outer_groove_radius)
         )
         return inner, outer
+
+    @property
+    def _stays(self) -> float:
+        """Share of the ball's own shape that is left in a contact: of what yields, the groove's."""
+        ring, ball = self.material.compliance, self.rolling_material.compliance
+        return ring / (ring + ball)
 
     @cached_property
     def rolling_heights(self) -> tuple[float, float]:
@@ -279,7 +291,7 @@ class BallBearing(Bearing):
     def in_words(self) -> str:
         return (
             f"{self.name_and_size} with {self.ball_count} balls of "
-            f"{typeset(self.ball_diameter, 'mm')}, free contact angle "
+            f"{typeset(self.ball_diameter, 'mm')}{self.of_what}, free contact angle "
             f"{typeset(self.free_contact_angle, 'deg', digits=4)}, radial clearance "
             f"{typeset(self.clearance, 'um', digits=4)}; "
             f"the grooves' radii are {self.inner_conformity:.4g} (inner) and "
@@ -295,7 +307,7 @@ def race_contact(bearing: BallBearing, conformity: float, side: float) -> PointC
     return PointContact(
         rolling=radius * (1.0 + side * bearing.gamma),
         transverse=2.0 * radius * conformity / (2.0 * conformity - 1.0),
-        modulus=bearing.material.plane_strain_modulus,
+        modulus=bearing.race_modulus,
     )
 
 

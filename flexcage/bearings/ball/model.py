@@ -27,6 +27,7 @@ from flexcage.contacts.race import race_work
 from flexcage.contacts.spec import Contacts, LandSpec, Lubricant
 from flexcage.contacts.uneven import is_uneven, spread, uneven_race
 from flexcage.geometry.hertz import PointContact
+from flexcage.geometry.materials import contact_modulus
 from flexcage.geometry.spot import marked
 from flexcage.system.bodies import (
     bodies_of,
@@ -83,7 +84,7 @@ def groove_of(
     wave, spall = uneven_race(bearing, ring, bearing.race_radius(ring), contact.rolling)
     sides = getattr(bearing, f"{ring}_spall").sides(radius)
     long = float(contact.semi_axes(1.0)[0])
-    felt = spread(contact.rolling, bearing.material.plane_strain_modulus)
+    felt = spread(contact.rolling, bearing.race_modulus)
     return Groove(
         side=side,
         axial=axial,
@@ -113,12 +114,9 @@ def pocket_contact(bearing: BallBearing, cage: BallCage, radius: float) -> Point
     """
     ball = 0.5 * bearing.ball_diameter
     fit = 1.0 / (1.0 / ball - 1.0 / radius)
-    sides = (
-        (1.0 - material.poisson_ratio**2) / material.youngs_modulus
-        for material in (bearing.material, cage.warm_material)
-    )
     along = fit if cage.pocket_shape == "spherical" else ball
-    return PointContact(rolling=along, transverse=fit, modulus=2.0 / sum(sides))
+    modulus = contact_modulus(bearing.rolling_material, cage.warm_material)
+    return PointContact(rolling=along, transverse=fit, modulus=modulus)
 
 
 def _pockets(

@@ -41,13 +41,13 @@ _POINT = 1.5  # exponent of a Hertz contact
 def ball_ball_data(bearing: BallBearing, contacts: Contacts, radius: np.ndarray) -> BallBallContact:
     """How balls of these radii (Z,) [m] touch each other, by the laws of the races."""
     half = 0.25 * bearing.ball_diameter  # of two equal spheres
-    steel = PointContact(
-        rolling=half, transverse=half, modulus=bearing.material.plane_strain_modulus
+    two = PointContact(
+        rolling=half, transverse=half, modulus=bearing.rolling_material.plane_strain_modulus
     )
     inner_radius = 0.5 * bearing.pitch_diameter * (1.0 - _INWARDS)
     return BallBallContact(
         cutoff=2.0 * asin(min(_NEAR * float(radius.max()) / inner_radius, 1.0)),
-        normal=contact_laws.normal_parameters(contacts.race.normal, steel.stiffness, _POINT),
+        normal=contact_laws.normal_parameters(contacts.race.normal, two.stiffness, _POINT),
         friction=contact_laws.friction_parameters(contacts.race.friction),
     )
 

@@ -122,7 +122,10 @@ class RollerBearing(Bearing):
         doc="axial load on the inner ring that a single counter rib carries (NJ, NF)",
     )  # fmt: skip
     profile: RollerProfile = option(RollerProfile(), doc="roller profile")
-    material: Material = option(MATERIALS["GCr15"], doc="material of rings and rollers")
+    material: Material = option(MATERIALS["GCr15"], doc="material of the rings, and of the rollers")
+    element_material: Material | None = option(
+        None, doc="material of the rollers, as Si3N4 (default: bearing.material)"
+    )
     roller_scatter: float = quantity(
         "um", 0.0, doc="standard deviation of roller diameters (seeded)", minimum=0.0
     )
@@ -168,7 +171,8 @@ class RollerBearing(Bearing):
 
     @cached_property
     def roller_mass(self) -> float:
-        return self.material.density * 0.25 * pi * self.roller_diameter**2 * self.roller_length
+        density = self.rolling_material.density
+        return density * 0.25 * pi * self.roller_diameter**2 * self.roller_length
 
     @cached_property
     def roller_inertia(self) -> tuple[float, float]:
@@ -288,7 +292,7 @@ class RollerBearing(Bearing):
 
     def race_film(self, force: np.ndarray, speed: np.ndarray, oil: Oil) -> Film:
         """The load spread evenly over the effective length: a profile's ends are not resolved."""
-        roller, modulus = 0.5 * self.roller_diameter, self.material.plane_strain_modulus
+        roller, modulus = 0.5 * self.roller_diameter, self.race_modulus
         films = []
         for k, (race, side) in enumerate(
             ((self.inner_race_radius, 1.0), (self.outer_race_radius, -1.0))
@@ -311,7 +315,7 @@ class RollerBearing(Bearing):
     def in_words(self) -> str:
         return (
             f"{self.name_and_size} with {self.roller_count} "
-            f"rollers of {typeset(self.roller_diameter, 'mm')}, radial clearance "
+            f"rollers of {typeset(self.roller_diameter, 'mm')}{self.of_what}, radial clearance "
             f"{typeset(self.radial_clearance, 'um')}."
             f"{self.inner_spall.in_words('inner')}{self.outer_spall.in_words('outer')}"
             f"{self.roller_spot.in_words()}"

@@ -87,16 +87,17 @@ def _race_side(bearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool
     radius = bearing.inner_race_radius if inner else bearing.outer_race_radius
     rw = 0.5 * bearing.roller_diameter
     equivalent = rw * radius / (radius + sign * rw)
-    modulus = bearing.material.plane_strain_modulus  # E' = 2/(2 (1-nu^2)/E)
+    modulus = bearing.race_modulus
     wave, spall = uneven_race(bearing, "inner" if inner else "outer", radius, equivalent)
     stiffness = laws.iso_line_stiffness(bearing.effective_length, modulus)
-    stiffness /= contacts.race.slices
     return RaceSide(
         sign=sign,
         radius=radius,
         s=s,
         drop=drop,
-        normal=laws.normal_parameters(contacts.race.normal, stiffness, 10.0 / 9.0),
+        normal=laws.normal_parameters(
+            contacts.race.normal, stiffness, 10.0 / 9.0, parts=contacts.race.slices
+        ),
         friction=laws.friction_parameters(contacts.race.friction),
         rolling=laws.rolling_resistance(lubricant, equivalent, bearing.effective_length, modulus),
         hydro=2.0 * equivalent / rw,
@@ -133,8 +134,8 @@ def rib_points(bearing: RollerBearing, ring: str) -> np.ndarray:
 
 def rib_stiffness(bearing: RollerBearing) -> float:
     """Stiffness [N/m] of a roller's end on one rib."""
-    steel = elastic_constants(bearing.material)
-    return laws.flat_end_stiffness(0.45 * 0.5 * bearing.roller_diameter, steel, steel)
+    roller, rib = elastic_constants(bearing.rolling_material), elastic_constants(bearing.material)
+    return laws.flat_end_stiffness(0.45 * 0.5 * bearing.roller_diameter, roller, rib)
 
 
 def crossbeam_width(bearing: RollerBearing, cage: WindowCage) -> float:
@@ -173,19 +174,22 @@ def own_coordinates(shapes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def _pocket_laws(bearing, cage, contacts: Contacts, interface: CageInterface) -> np.ndarray:
     """Normal laws (2, N_NORMAL) of a slice of a crossbeam and of a point of a side beam."""
     rw, flexible = 0.5 * bearing.roller_diameter, interface.modes.shape[-1] > 0
-    steel, wall = elastic_constants(bearing.material), elastic_constants(cage.warm_material)
+    roller = elastic_constants(bearing.rolling_material)
+    wall = elastic_constants(cage.warm_material)
     k, e = laws.pocket_line_law(
         radius=rw,
         length=bearing.effective_length,
-        roller=steel,
+        roller=roller,
         wall=wall,
         depth=0.5 * crossbeam_width(bearing, cage),
         patch_half_width=interface.patch_half_width if flexible else 0.0,
     )
-    k_end = laws.flat_end_stiffness(0.9 * rw, steel, wall) / len(end_points(bearing, cage))
+    k_end = laws.flat_end_stiffness(0.9 * rw, roller, wall)
     return np.stack([
-        laws.normal_parameters(contacts.pocket.normal, k / contacts.pocket.slices, e),
-        laws.normal_parameters(contacts.side.normal, k_end, 1.0),
+        laws.normal_parameters(contacts.pocket.normal, k, e, parts=contacts.pocket.slices),
+        laws.normal_parameters(
+            contacts.side.normal, k_end, 1.0, parts=len(end_points(bearing, cage))
+        ),
     ])  # fmt: skip
 
 
@@ -202,7 +206,7 @@ def _rib_data(bearing: RollerBearing, contacts: Contacts, ring: str) -> RibData:
         half_roller=0.5 * bearing.roller_length,
         points=points,
         normal=laws.normal_parameters(
-            contacts.rib.normal, rib_stiffness(bearing) / max(len(points), 1), 1.0
+            contacts.rib.normal, rib_stiffness(bearing), 1.0, parts=max(len(points), 1)
         ),
         friction=laws.friction_parameters(contacts.rib.friction),
     )

@@ -44,13 +44,13 @@ def roller_roller_data(
 ) -> RollerRollerContact:
     """How rollers touch each other, by the laws of the races; their approach under a force is that
     of a line contact, whatever its curvature (A. Palmgren, see ``laws.iso_line_stiffness``)."""
-    steel = contact_laws.iso_line_stiffness(
-        bearing.effective_length, bearing.material.plane_strain_modulus
+    two = contact_laws.iso_line_stiffness(
+        bearing.effective_length, bearing.rolling_material.plane_strain_modulus
     )
     return RollerRollerContact(
         s=s,
         drop=drop,
-        normal=contact_laws.normal_parameters(contacts.race.normal, steel / len(s), _LINE),
+        normal=contact_laws.normal_parameters(contacts.race.normal, two, _LINE, parts=len(s)),
         friction=contact_laws.friction_parameters(contacts.race.friction),
     )
 

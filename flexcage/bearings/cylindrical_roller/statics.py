@@ -27,7 +27,7 @@ from flexcage.system.statics.elements import ElementLoads, Response, azimuths
 from flexcage.system.statics.options import StaticOptions
 
 EXPONENT = 10.0 / 9.0
-_AT_REST = ("restitution", "impact_step", "elastic")  # laws that are K d^n without motion
+_AT_REST = ("restitution", "lankarani_nikravesh", "impact_step", "elastic")  # K d^n at rest
 # ISO/TS 16281:2008: ratings of one roller, and lambda nu of radial roller bearings
 _INNER, _OUTER, _LAMBDA_NU, _SPREAD = 0.378, 0.364, 0.83, 1.038
 
@@ -41,8 +41,7 @@ def rollers_of(
     from flexcage.contacts.laws import iso_line_stiffness  # its kernels take seconds to load
 
     places, drop = slice_grid(bearing, contacts.race.slices)
-    modulus = bearing.material.plane_strain_modulus
-    stiffness = iso_line_stiffness(bearing.effective_length, modulus)
+    stiffness = iso_line_stiffness(bearing.effective_length, bearing.race_modulus)
     cage = epicyclic(
         element_diameter=bearing.roller_diameter,
         pitch_diameter=bearing.pitch_diameter,
@@ -180,7 +179,7 @@ class Rollers:
         radius, half = 0.5 * b.roller_diameter, 0.5 * b.effective_length
         races = np.array([b.inner_race_radius, b.outer_race_radius])
         curved = radius * races / (races + np.array([radius, -radius]))
-        modulus = 0.5 * b.material.plane_strain_modulus
+        modulus = 0.5 * b.race_modulus
         width = np.sqrt(4.0 * line * curved / (pi * modulus))  # Johnson 4.43
         loaded = slices > 0.0
         return ElementLoads(

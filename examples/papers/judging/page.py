@@ -1,0 +1,187 @@
+"""The page of a repeated paper, which its author should sign, and the appendix for a referee.
+
+The page says in three sentences what was found, shows one picture of it, says what was printed,
+inferred and swept, and then goes figure by figure: what the paper says, our figure, the verdict,
+the mechanism. Statistics stand in the appendix. A page that nobody would read is refused.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from textwrap import wrap
+
+from judging.judge import CONTRADICTED, REPRODUCED, UNDER, UNTESTABLE, Judged
+
+MOST_LINES, MOST_NUMBERS, MOST_WORDS, WIDE = 150, 2, 25, 110
+NUMBER = re.compile(r"(?<![\w.])[-+±(]?\d[\d.,]*")
+MARKS = {REPRODUCED: "✓", UNDER: "◐", CONTRADICTED: "✗", UNTESTABLE: "–"}
+LEGEND = """✓ reproduced: at 80 % or more of the settings that the text allows. ◐ reproduced under a
+condition: at 80 % or more of a region, named here, of a tenth of the settings or more. ✗
+contradicted: at 10 % or less, and the runs say why. – not testable. All statistics are in the
+[appendix](appendix.md)."""
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table of the page."""
+
+    title: str
+    head: Sequence[str]
+    rows: Sequence[Sequence[str]]
+
+
+@dataclass(frozen=True)
+class Found:
+    """A finding with its verdict; ``condition`` names the region under which it is reproduced."""
+
+    claim: str  # key of its claim
+    text: str  # what is claimed, a short paraphrase
+    part: str  # of the claim
+    where: str
+    judged: Judged
+    condition: str = ""
+
+    @property
+    def said(self) -> str:
+        """The verdict in a few words."""
+        verdict, mark = self.judged.verdict, MARKS[self.judged.verdict]
+        if verdict == UNDER:
+            return f"{mark} {verdict} {self.condition}"
+        return f"{mark} {verdict}" + (
+            f": {self.judged.reason}" if verdict == UNTESTABLE and self.judged.reason else ""
+        )
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One figure of the paper: what it says in our words, our picture of it, the claims that are
+    read from it, and the mechanism in two lines."""
+
+    title: str
+    says: str
+    picture: str
+    claims: Sequence[str]
+    mechanism: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Page:
+    """All that a page holds, in order."""
+
+    title: str
+    source: str
+    summary: str  # three sentences of physics
+    hero: tuple[str, str]  # picture and caption
+    model: Sequence[str] = ()  # a sketch, equations that matter, in Markdown
+    known: Table  # printed, inferred, swept
+    figures: Sequence[Figure]
+    found: Sequence[Found]
+    asks: Sequence[str]  # what we would ask the authors
+    cost: str  # processor time, version, date
+    appendix: Sequence[Table] = field(default=())
+    history: Sequence[str] = ()  # rules changed after results were seen, once
+    files: Sequence[str] = ()
+
+
+def compose(page: Page) -> str:
+    """The page as Markdown; ValueError for one that is too long, or a cell that is too full."""
+    by_claim: dict[str, list[Found]] = {}
+    for found in page.found:
+        by_claim.setdefault(found.claim, []).append(found)
+    parts = [
+        f"# {page.title}", wrapped(page.summary), f"![{page.hero[1]}]({page.hero[0]})",
+        wrapped(page.hero[1]), *page.model, table(page.known), "## Figure by figure",
+        *(_figure(figure, by_claim) for figure in page.figures),
+        "## All claims", _claims(page.found), wrapped(LEGEND),
+        "## What we would ask the authors", bullets(page.asks),
+        wrapped(f"Paper: {page.source}. {page.cost}"),
+    ]  # fmt: skip
+    text = "\n\n".join(part for part in parts if part) + "\n"
+    if text.count("\n") > MOST_LINES:
+        raise ValueError(f"the page has {text.count(chr(10))} lines, more than {MOST_LINES}")
+    return text
+
+
+def compose_appendix(page: Page) -> str:
+    """The appendix as Markdown: shares, chances, regions, power, ranges, and what was changed."""
+    rows = [
+        (f.claim, f.part, f.judged.verdict, _share(f.judged), _chance(f.judged), _region(f))
+        for f in page.found
+    ]
+    shares = Table(
+        "Shares of settings",
+        ("claim", "finding", "verdict", "holds (95 %)", "by chance", "clearest region"),
+        rows,
+    )
+    parts = [
+        f"# Appendix: {page.title}",
+        wrapped("The [page](README.md) has the figures. Here are the statistics behind its "
+                "verdicts; [how claims are judged](../README.md#how-a-claim-is-judged)."),
+        table(shares, full=True), *(table(t, full=True) for t in page.appendix),
+    ]  # fmt: skip
+    if page.history:
+        parts += ["## Changed after results were seen", bullets(page.history)]
+    if page.files:
+        parts += ["All numbers: " + ", ".join(f"[{file}]({file})" for file in page.files) + "."]
+    return "\n\n".join(parts) + "\n"
+
+
+def _share(judged: Judged) -> str:
+    if not judged.decided:
+        return "-"
+    return f"{judged.share:.0%} ({judged.low:.0%} to {judged.high:.0%}) of {judged.decided}"
+
+
+def _chance(judged: Judged) -> str:
+    return "-" if judged.chance != judged.chance else f"{judged.chance:.0%}"
+
+
+def _region(found: Found) -> str:
+    region = found.judged.region
+    if region is None:
+        return "-"
+    return f"{found.condition}: {region.share:.0%} of {region.size:.0%}, p {region.p:.1g}"
+
+
+def _figure(figure: Figure, by_claim: dict[str, list[Found]]) -> str:
+    verdicts = [f"{found.part}: {found.said}" for key in figure.claims for found in by_claim[key]]
+    lines = [f"### {figure.title}", wrapped(f"*The paper:* {figure.says}")]
+    lines += [f"![{figure.title}]({figure.picture})"] if figure.picture else []
+    lines += [wrapped(f"**{'; '.join(verdicts)}.** {figure.mechanism}")]
+    return "\n\n".join(lines)
+
+
+def _claims(found: Sequence[Found]) -> str:
+    rows, last = [], ""
+    for one in found:
+        text = f"{one.text} ({one.where})" if one.claim != last else ""
+        rows.append((one.claim if one.claim != last else "", text, one.part, one.said))
+        last = one.claim
+    return table(Table("", ("", "claim", "finding", "verdict"), rows))
+
+
+def wrapped(text: str) -> str:
+    """One paragraph in lines of a page's width."""
+    return "\n".join(wrap(" ".join(text.split()), WIDE, break_long_words=False))
+
+
+def bullets(items: Sequence[str]) -> str:
+    """A list."""
+    return "\n".join(
+        "\n".join(wrap(" ".join(item.split()), WIDE, initial_indent="- ", subsequent_indent="  ",
+                       break_long_words=False)) for item in items
+    )  # fmt: skip
+
+
+def table(found: Table, *, full: bool = False) -> str:
+    """A table in Markdown; ValueError for a cell of too many words or, unless ``full``, numbers."""
+    for cell in (str(cell) for row in found.rows for cell in row):
+        numbers = len(NUMBER.findall(cell))
+        if not full and (len(cell.split()) > MOST_WORDS or numbers > MOST_NUMBERS):
+            raise ValueError(f"a cell of '{found.title}' is too full: {cell}")
+    lines = [f"| {' | '.join(found.head)} |", "|" + " --- |" * len(found.head)]
+    lines += [f"| {' | '.join(map(str, row))} |" for row in found.rows]
+    head = f"**{found.title}**\n\n" if found.title else ""
+    return head + "\n".join(lines)

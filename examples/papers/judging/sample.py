@@ -1,0 +1,99 @@
+"""Samples from the folders of maps, and regions of them in words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from flexcage.study import MapResults
+from flexcage.study.unknowns import Unknown
+from judging.judge import Region, Sample
+
+ALIAS = 0.6  # correlation of two unknowns (or of their middles) from which they are one
+CELLS = 4  # parts of a range by which coverage of pairs is counted
+
+
+def sample_of(
+    maps: Sequence[MapResults], unknowns: Sequence[Unknown], drifting: str = ""
+) -> Sample:
+    """Maps of the same unknowns, conditions and outputs as one sample.
+
+    A run whose output ``drifting`` is above 1/2 is not stationary: its numbers depend on how long
+    it was followed, so they are left out.
+    """
+    first = maps[0]
+    values = {}
+    for condition in first.conditions:
+        kept = [_steady(part, condition, drifting) for part in maps]
+        for output in first.study.about.outputs:
+            found = [np.where(there, part.values(output, condition), np.nan)
+                     for part, there in zip(maps, kept)]  # fmt: skip
+            values[output, condition] = np.concatenate(found)
+    shares = np.vstack([part.shares[:, : len(unknowns)] for part in maps])
+    names = [unknown.name for unknown in unknowns]
+    return Sample(names, shares, values, first.conditions, cuts_of(unknowns))
+
+
+def _steady(part: MapResults, condition: str, drifting: str) -> np.ndarray:
+    """Which runs (points, starts) are stationary."""
+    if not drifting:
+        return np.ones((len(part.shares), part.about["starts"]), bool)
+    return ~(part.values(drifting, condition) > 0.5)
+
+
+def cuts_of(unknowns: Sequence[Unknown]) -> dict[str, tuple[float, ...]]:
+    """Shares between the choices of unknowns that are choices."""
+    found = {}
+    for unknown in unknowns:
+        if unknown.choices:
+            ends = np.cumsum(unknown.weights) / sum(unknown.weights)
+            found[unknown.name] = tuple(float(end) for end in ends[:-1])
+    return found
+
+
+def in_words(region: Region, unknowns: Sequence[Unknown]) -> str:
+    """The region's limits, as "Cq - Dw below 0.15 mm and friction 0.1 to 0.2"."""
+    by_name = {unknown.name: unknown for unknown in unknowns}
+    return " and ".join(_limits(by_name[n], *ends) for n, ends in region.limits.items())
+
+
+def _limits(unknown: Unknown, low: float, high: float) -> str:
+    if unknown.choices:
+        ends = np.cumsum(unknown.weights) / sum(unknown.weights)
+        middles = np.concatenate([[0.0], ends[:-1]]) + 0.5 * np.diff([0.0, *ends])
+        inside = [c["label"] for c, m in zip(unknown.choices, middles) if low < m < high]
+        return f"{unknown.name} {' or '.join(map(str, inside))}"
+    first, last = (_short(unknown.changes(share)[0]) for share in (low, high))
+    if low <= 0.0:
+        return f"{unknown.name} below {last}"
+    return f"{unknown.name} above {first}" if high >= 1.0 else f"{unknown.name} {first} to {last}"
+
+
+def _short(value: object) -> str:
+    """A number, with its unit if it has one, in two digits."""
+    number, _, unit = str(value).partition(" ")
+    return f"{float(number):.2g} {unit}".rstrip()
+
+
+def aliases(shares: np.ndarray, names: Sequence[str]) -> list[str]:
+    """Pairs of unknowns that a design (points, unknowns) does not tell apart, or not everywhere:
+    each with the reason. A design that judges claims has none."""
+    found = []
+    cell = np.minimum((shares * CELLS).astype(int), CELLS - 1)
+    middle = np.abs(shares - 0.5) < 0.25
+    for i in range(shares.shape[1]):
+        for j in range(i):
+            counts = np.bincount(cell[:, i] * CELLS + cell[:, j], minlength=CELLS * CELLS)
+            pair = f"{names[j]} and {names[i]}"
+            if not counts.all():
+                found.append(f"{pair}: no point in {int((counts == 0).sum())} of {CELLS**2} cells")
+            elif _correlation(shares[:, i], shares[:, j]) > ALIAS:
+                found.append(f"{pair} move together")
+            elif _correlation(middle[:, i], middle[:, j]) > ALIAS:
+                found.append(f"middles of {pair} coincide")
+    return found
+
+
+def _correlation(one: np.ndarray, other: np.ndarray) -> float:
+    return abs(float(np.corrcoef(one, other)[0, 1]))
