@@ -57,6 +57,7 @@ _WIDE = ("spectra",)  # pictures with fine print
 #: which they stand.
 CAPTIONS = {
     "stress_peak": "Stress at the instant of its peak, on the deformed cage",
+    "stress_pocket": "The pocket of that peak with its rolling element, deformed in scale",
     "stress_envelope": "Largest stress of every place over the settled part",
     "deformation": "Elastic deformation at the same instant",
     "mesh": "Mesh, with defects marked",
