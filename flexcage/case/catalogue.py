@@ -47,11 +47,13 @@ def find(text: str) -> Entry:
     """The bearing of a designation, "N 210" or "N210", "6205-2RS C3"; InputError if it is unknown,
     or known without ratings, or of a design that flexcage has not."""
     found = _read(text)
+    if found and (other := next((u for u in found.unknown if _is_known(u)), "")):
+        raise _refused(text, f"names two bearings; give one, as in: flexcage new {other}")
     if not found or found.bare not in _ratings():
         raise _not_found(text, found)
     entry = _entry(found)
     source = entry.source
-    if found.number not in plain(text) or found.bare not in plain(text):
+    if plain(found.bare) not in plain(text):
         source = f"{source}; {text} means {found.bare}"
     return Entry(outline=applied(entry.outline, found), source=source)
 
@@ -85,6 +87,12 @@ def with_marks(outline: Outline) -> Outline:
         return outline
     marked = applied(outline, found)
     return rated_by_user(replace(marked, designation=outline.designation))
+
+
+def _is_known(text: str) -> bool:
+    """Is a text the designation of a bearing of known dimensions?"""
+    found = read(text)
+    return found is not None and _place(found) in _boundary()
 
 
 def _read(text: str) -> Designation | None:
@@ -169,9 +177,7 @@ def _nearest(name: str) -> str:
     """The known designations that are nearest to a name, or what the catalogue has at all."""
     close = near_names(name, _ratings())
     if not close:
-        return (
-            f"it has ratings of the series {', '.join(_rated_series())}, with bores of 10 to 60 mm"
-        )
+        return f"it has ratings of the series {', '.join(_rated_series())}"
     return f"the nearest known {'one is' if len(close) == 1 else 'ones are'} {', '.join(close)}"
 
 
@@ -212,7 +218,7 @@ def _without_ratings(text: str, found: Designation) -> InputError:
     others = [n for n in _ratings() if re.fullmatch(rf"{found.number}\D*", n)]
     listed = f"; it has {', '.join(others)}" if others else ""
     size = f"{bore.removesuffix(' mm')} x {outside.removesuffix(' mm')} x {width}"
-    name = str(found) if found.number in plain(text) else f"{found.bare}"
+    name = str(found) if plain(found.number) in plain(text) else found.bare
     options = " ".join(f'{option} "..."' for option in wanted)
     return InputError(
         f"The catalogue has no ratings of '{text}' ({size} by ISO 15{listed})"
