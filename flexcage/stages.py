@@ -113,6 +113,7 @@ def bearing_in_motion(
     specs: MotionSections, mesh: CageMesh | None, cage: CageReduction | None
 ) -> BearingSystem:
     """Bodies, contacts and equations of motion, which are compiled when first asked for."""
+    specs = specs.mounted
     seat = compliance_of(specs.mount, specs.bearing)
     rings = _moving_rings(specs, seat)
     if cage is not None:
@@ -126,6 +127,7 @@ def bearing_in_motion(
 
 def bearing_to_compile(specs: MotionSections) -> BearingSystem:
     """The same with any body for its cage, and a seat that stands: kernels are alike for all."""
+    specs = specs.mounted
     if specs.cage is None:
         return _assembled(specs, None)
     body = rigid_from_tets(np.eye(4, 3, -1), np.array([[0, 1, 2, 3]]), 1.0)
@@ -139,6 +141,7 @@ def _rigid_interface(specs: PocketSections) -> Any:
 
 def bent_rings(specs: RingSections) -> tuple[BentRing, ...]:
     """The rings that bend, as a run begins; none if both are rigid."""
+    specs = specs.mounted
     rings = _moving_rings(specs, compliance_of(specs.mount, specs.bearing))
     return rings.start.rings if rings else ()
 
@@ -223,6 +226,7 @@ def assembled_start(
 
     ``progress`` is a context like ``core.progress.Progress``.
     """
+    specs = specs.mounted
 
     def statics() -> StaticSolution:
         return bearing.rings.start if bearing.rings else _statics(specs, seat=bearing.seat)

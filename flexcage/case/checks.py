@@ -10,6 +10,8 @@ from typing import Any
 
 from flexcage.bearings import in_motion
 from flexcage.cages import cage_type_of
+from flexcage.case.fit_checks import find_in_fit
+from flexcage.case.life_checks import find_in_life
 from flexcage.case.read_values import files_of
 from flexcage.case.ring_checks import find_bending_in_run, find_in_rings
 from flexcage.case.sections import NO_CAGE, CaseSections, StaticSections
@@ -639,5 +641,7 @@ _OF_EVERY_CASE = (
     _find_in_tilt,
     _find_in_speed,
     find_in_rings,
+    find_in_fit,
+    find_in_life,
 )
 _OF_CAGES = (_find_in_mesh, _find_in_temperature, _find_in_land)

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from math import degrees, radians
 from typing import TYPE_CHECKING, Any
 
+from flexcage.case.fit_checks import questioned_fit
 from flexcage.core.units import describe
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.system.spec import CageSpeed
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 Said = tuple[str, str]  # key of a warning, and its sentence
 
-ODD, OTHER_STEEL = "odd_value", "other_steel"
+ODD, OTHER_STEEL, FIT = "odd_value", "other_steel", "fit"
 _STEEL = 0.1  # by which a modulus may differ from bearing steel's before ratings are another's
 _THINNEST = 0.02  # of the element's diameter, a fifth of what sheet and webs have (assumption)
 _FLATTEST = radians(1.0)  # contact angle; no catalogue has less than 10 deg
@@ -76,6 +77,7 @@ def implausible_values(case: StaticCase) -> Iterator[Said]:
     yield from ((ODD, text) for text in _implausible_friction(case))
     yield from ((ODD, text) for text in _implausible_gravity(case))
     yield from ((ODD, text) for text in _cage_at_rest(case))
+    yield from ((FIT, text) for text in questioned_fit(case))
     yield from _of_other_steel(case)
 
 
@@ -113,6 +115,8 @@ def _bodies(case: Any) -> Iterator[tuple[str, Material, tuple[Usual, ...]]]:
         ring = getattr(case, name)
         if ring.bends and ring.material is not None:
             yield f"{name}.material", ring.material, (*_RINGS[:1], *_RINGS[2:])
+    for name in ("shaft_material", "housing_material") if case.fit.given else ():
+        yield f"fit.{name}", getattr(case.fit, name), _OF_SOLIDS[:3]
     if cage := getattr(case, "cage", None):
         yield "cage.material", cage.material, _OF_SOLIDS
 

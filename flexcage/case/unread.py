@@ -25,7 +25,7 @@ def reasons(case: StaticSections) -> dict[str, str]:
     """Dotted paths of values that nothing reads in such a case, and why: half a sentence. The path
     of a section stands for all values in it."""
     found = dict(unread(case))
-    for rule in (_in_contacts, _in_materials, _in_loads):
+    for rule in (_in_contacts, _in_materials, _in_loads, _by_fit):
         found.update(rule(case))
     if isinstance(case, CaseSections):  # a static solution is one of no cage
         found.update(_of_no_cage() if case.cage is None else _of_cage(case, case.cage))
@@ -70,6 +70,7 @@ def _of_no_cage() -> Iterator[tuple[str, str]]:
 
 
 def _of_cage(case: CaseSections, cage: Cage) -> Iterator[tuple[str, str]]:
+    yield "cage.material.expansion", "cages do not grow with temperature"
     yield from _on_lands(case.bearing, cage)
     yield from _of_a_rigid_cage(case)
     if not cage.has_faces:
@@ -107,6 +108,14 @@ def _of_a_rigid_cage(case: CaseSections) -> Iterator[tuple[str, str]]:
     elif case.modes.damping is not None or case.modes.ratios:
         given = "damping" if case.modes.damping is not None else "ratios"
         yield "cage.material.loss_factor", f"modes.{given} is given"
+
+
+def _by_fit(case: StaticSections) -> Iterator[tuple[str, str]]:
+    if case.fit.clearance is not None:
+        yield "bearing.radial_clearance", "fit.clearance gives it"
+    if not any(case.fit.warmth.values()):
+        for where in ("bearing.material", "fit.shaft_material", "fit.housing_material"):
+            yield f"{where}.expansion", "[fit] has no temperatures that differ"
 
 
 def _in_loads(case: StaticSections) -> Iterator[tuple[str, str]]:

@@ -22,10 +22,12 @@ from flexcage.core.units import typeset
 from flexcage.core.wings import FAMILIES, Parts
 from flexcage.geometry.cage import Cage, RingLimit
 from flexcage.geometry.film import Film, Oil
+from flexcage.geometry.life.iso281 import Endurance
 from flexcage.geometry.materials import contact_modulus
 from flexcage.geometry.other_kinds import kind_of, named_kind
 
 if TYPE_CHECKING:
+    from flexcage.geometry.fits.changed import Changed
     from flexcage.geometry.materials import Material
 
 _MISSING = object()
@@ -101,6 +103,7 @@ class Bearing:
     # contacts of which [contacts] speaks, beside the cage's land
     places: ClassVar[tuple[str, ...]] = ("race", "pocket", "side", "rib")
     sliced: ClassVar[tuple[str, ...]] = ("race", "pocket")  # those cut in slices or strips
+    endurance: ClassVar[Endurance | None] = None  # constants of its modified life, ISO 281
     carries_axial_load: ClassVar[bool] = False  # in a run, with the ring free axially and in tilt
     elsewhere: ClassVar[Mapping[str, str]] = {}  # patterns of keys that it has not: what there is
 
@@ -164,6 +167,25 @@ class Bearing:
     def element_edge(self) -> float:
         """Radius [m] of the edges at an element's ends; 0 for types that do not say."""
         return 0.0
+
+    @property
+    def clearance(self) -> float:
+        """Radial internal clearance Pd [m]."""
+        raise self._lacks("clearance")
+
+    @property
+    def race_diameters(self) -> tuple[float, float]:
+        """Diameters [m] at which elements roll on inner and outer race."""
+        raise self._lacks("race_diameters")
+
+    def in_place(self, changed: Changed) -> Bearing:
+        """The bearing as fits, warmth and speed change it; types without it have no [fit]."""
+        raise self._lacks("in_place")
+
+    def approach(self, mounted: Bearing) -> float | None:
+        """By how much [m] the inner ring of this bearing, ``mounted``, meets its elements earlier
+        along the axis; None of types without a place of first contact."""
+        return None
 
     @property
     def element_mass(self) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import ClassVar
 
@@ -47,6 +47,9 @@ class Material:
     loss_factor: float = option(
         0.0, doc="loss factor (tan delta); metals have less than 0.001", minimum=0.0, maximum=1.0,
     )  # fmt: skip
+    expansion: float | None = quantity(
+        "1/K", None, doc="coefficient of thermal expansion, for fits", above=0.0, hashed=False
+    )
 
     @property
     def modal_damping(self) -> float:
@@ -192,6 +195,17 @@ def _polyamides() -> dict[str, Material]:
 
 
 MATERIALS.update(_polyamides())
+
+#: Coefficients of thermal expansion [1/K] and where they come from, apart from the other sources:
+#: only fits read them.
+EXPANSIONS: Mapping[str, tuple[float, str]] = MappingProxyType({
+    "GCr15": (12e-6, "SKF, Rolling bearings, materials for bearing rings and rolling elements"),
+    "steel": (12e-6, "EN 1993-1-1, 3.2.6, structural steel up to 100 degrees C"),
+    "Si3N4": (3e-6, "SKF, Rolling bearings, bearing grade silicon nitride"),
+    "ZrO2": (10.5e-6, "an assumption, of the class of 3Y-TZP (makers' sheets: 10 to 11e-6 1/K)"),
+})  # fmt: skip
+for _name, (_expansion, _) in EXPANSIONS.items():
+    MATERIALS[_name] = replace(MATERIALS[_name], expansion=_expansion)
 
 
 def register_material(material: Material) -> Material:

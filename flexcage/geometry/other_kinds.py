@@ -61,8 +61,10 @@ SURROUNDINGS: Mapping[str, str] = MappingProxyType({
     r"pre.?load.*|springs?": "flexcage has no preload between bearings: give its force as "
     "load.axial, or a negative bearing.radial_clearance of deep groove balls",
     r"(.*_)?temperatures?(_.*)?|heat.*|thermal.*|cooling": "flexcage computes no heat: give "
-    "lubricant.viscosity and the clearance at the temperature of work, and cage.temperature for "
-    "the cage's modulus",
+    "lubricant.viscosity at the temperature of work, temperatures of rings, shaft and housing in "
+    "[fit] for the clearance, and cage.temperature for the cage's modulus",
+    r"fits|fitting|seats?|interferences?|press.?fits?|tolerances?|mounting": "fits of both rings, "
+    "and what they leave of the clearance, are [fit]",
     r"(ball|roller|rolling|ceramic).*materials?|hybrid|ceramics?": "the material of rolling "
     'elements is bearing.element_material, as "Si3N4"',
     r"grease.*|seals?": "flexcage knows the oil of [lubricant]; grease, seals and "

@@ -123,7 +123,7 @@ def _turns(case: Case, duration: float) -> float:
     """Turns of a cage without slip in the settled part of a run so long."""
     t = np.linspace(case.output.settle * duration, duration, _INSTANTS)
     inner = float(np.trapezoid(np.abs(speeds_over(case.drive, t)), t))
-    ratio = BearingNumbers.of(case.bearing).nominal.kinematics(1.0).cage_speed
+    ratio = BearingNumbers.of(case.mounted.bearing).nominal.kinematics(1.0).cage_speed
     return inner * abs(ratio) / (2.0 * pi)
 
 

@@ -17,6 +17,7 @@ from flexcage.core.output_folders import check_no_file
 from flexcage.core.timing import Stages
 from flexcage.core.units import parse
 from flexcage.core.warning import RunWarning
+from flexcage.geometry.bearing import Bearing
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.series import write_series
 from flexcage.modes.reduction import CageReduction
@@ -102,19 +103,24 @@ class RunRecord:
         return self.store.steps()
 
     @property
+    def bearing(self) -> Bearing:
+        """The bearing that ran: as the case has it, or as its [fit] leaves it."""
+        return self.case.mounted.bearing
+
+    @property
     def numbers(self) -> BearingNumbers:
-        return BearingNumbers.of(self.case.bearing)
+        return BearingNumbers.of(self.bearing)
 
     @cached_property
     def film_thickness(self) -> xarray.DataArray:
         """Lubricant's film [m] at every element and race, central and least (an xarray.DataArray):
         isothermal, fully flooded, by the recorded forces and speeds."""
-        return film_thickness(self.dataset, self.case.bearing, self.case.lubricant.oil)
+        return film_thickness(self.dataset, self.bearing, self.case.lubricant.oil)
 
     @cached_property
     def groove_edges(self) -> list[Edge]:
         """Contact ellipses at the edges of grooves: the worst at each; none without grooves."""
-        return groove_edges(self.case.bearing, self.dataset)
+        return groove_edges(self.bearing, self.dataset)
 
     @cached_property
     def cage_stress(self) -> RunStress:
@@ -170,7 +176,7 @@ class RunRecord:
         check_spec(used, "law")
         ds = settled(self.dataset, case.output.settle)
         windows = element_passes(ds, self.numbers)
-        return wear(ds, case.bearing, case.its_cage, case.land, used, windows)
+        return wear(ds, self.bearing, case.its_cage, case.land, used, windows)
 
     @cached_property
     def rivets(self) -> Rivets:
@@ -200,7 +206,7 @@ class RunRecord:
 
         rivets, case = self.rivets, self.case
         root = _si(root_radius, "mm", "root_radius")
-        cage, bearing = case.its_cage, case.bearing
+        cage, bearing = case.its_cage, self.bearing
         return self.stages(
             "rivet_joint", fits_of, rivets,
             cage.rivet_joint(bearing.pitch_diameter, bearing.element_count, root),

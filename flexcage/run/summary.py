@@ -10,6 +10,8 @@ from flexcage.results.figures.cage import SUPPORT, CageFacts, cage_rows
 from flexcage.results.figures.effort import SOLVER, TIMES
 from flexcage.results.figures.figure import rows_of
 from flexcage.results.figures.film import FILM, Lubricated
+from flexcage.results.figures.fits import FITS
+from flexcage.results.figures.life import LIFE
 from flexcage.results.figures.part import SettledRun
 from flexcage.results.figures.sections import summarise
 from flexcage.results.figures.stress import RIVETS, stress_rows
@@ -21,8 +23,11 @@ from flexcage.results.warnings import from_attrs, warnings_of
 from flexcage.results.warnings_at_end import AT_END, CAGELESS_AT_END, RunOutcome
 from flexcage.run.elastic import elastic_shape
 from flexcage.run.folder import seam_warnings
+from flexcage.static import solve_static
+from flexcage.system.statics.options import AT_START
 
 if TYPE_CHECKING:
+    from flexcage.case import Case
     from flexcage.run.record import RunRecord
 
 
@@ -32,7 +37,9 @@ def summary_of(run: RunRecord, *, stress: bool = True) -> Summary:
     case, part = run.case, part_of(run)
     summary = summarise(part)
     for rows in (
-        FILM.rows(Lubricated(part, case.bearing, case.lubricant.oil)),
+        FILM.rows(Lubricated(part, run.bearing, case.lubricant.oil)),
+        [] if case.mounting is None else FITS.rows(case.mounting),
+        [] if not case.life.given else _lives(case),
         [FIGURES[edge.key].row(edge.found) for edge in run.groove_edges],
         SUPPORT.rows(case.held_in_words),
         _cage_rows(run),
@@ -45,6 +52,11 @@ def summary_of(run: RunRecord, *, stress: bool = True) -> Summary:
     if run.effort is not None:
         summary = summary.with_figures(SOLVER.rows(run.effort))
     return warned(timed(summary, run), run)
+
+
+def _lives(case: Case) -> tuple[SummaryRow, ...]:
+    lives = solve_static(case, options=AT_START).lives
+    return () if lives is None else LIFE.rows(lives)
 
 
 def part_of(run: RunRecord) -> SettledRun:
@@ -69,7 +81,7 @@ def warned(summary: Summary, run: RunRecord) -> Summary:
     outcome = RunOutcome(
         summary=summary,
         dataset=run.dataset,
-        bearing=case.bearing,
+        bearing=run.bearing,
         cage=case.cage,
         land=case.land,
         duration=case.solver.duration,

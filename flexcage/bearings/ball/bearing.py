@@ -8,10 +8,10 @@ Bearing Analysis, 2 and 6; ISO/TS 16281:2008, 4.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import acos, cos, inf, pi, sin, sqrt
-from typing import ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -26,9 +26,13 @@ from flexcage.geometry.bearing import (
 )
 from flexcage.geometry.film import Film, Oil, both_races, point_film, rolling_entrainment
 from flexcage.geometry.hertz import PointContact
+from flexcage.geometry.life.iso281 import BALLS, Endurance
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.other_kinds import SURROUNDINGS
 from flexcage.geometry.spall import BY_RACE, Spall
+
+if TYPE_CHECKING:
+    from flexcage.geometry.fits.changed import Changed
 
 SHOULDER = 0.2  # of the ball's diameter: a shoulder's height where none is given
 
@@ -47,6 +51,7 @@ class BallBearing(Bearing):
     places: ClassVar[tuple[str, ...]] = ("race", "pocket")
     sliced: ClassVar[tuple[str, ...]] = ("race",)
     elsewhere: ClassVar[Mapping[str, str]] = {**BY_RACE, **SURROUNDINGS}
+    endurance: ClassVar[Endurance | None] = BALLS
     carries_axial_load: ClassVar[bool] = True
     one_sided: ClassVar[bool] = False  # are there shoulders for one direction of load alone?
 
@@ -112,11 +117,6 @@ class BallBearing(Bearing):
         return self.ball_mass
 
     @property
-    def clearance(self) -> float:
-        """Radial internal clearance Pd [m]."""
-        raise self._lacks("clearance")
-
-    @property
     def groove_offset(self) -> tuple[float, float]:
         """Inner groove's centre from the outer one's, axially and radially [m], undisplaced."""
         raise self._lacks("groove_offset")
@@ -159,6 +159,25 @@ class BallBearing(Bearing):
         """Radius [m] about the bearing's axis at which balls roll on the "inner" or "outer" race at
         the nominal contact angle."""
         return 0.5 * self.pitch_diameter * (1.0 + (self.gamma if ring == "outer" else -self.gamma))
+
+    @property
+    def race_diameters(self) -> tuple[float, float]:
+        return 2.0 * self.race_radius("inner"), 2.0 * self.race_radius("outer")
+
+    def in_place(self, changed: Changed) -> BallBearing:
+        """Grooves move with their races, and grow as warm rings do; so do balls."""
+        return replace(
+            self,
+            pitch_diameter=self.pitch_diameter + 0.5 * (changed.inner_race + changed.outer_race),
+            ball_diameter=self.ball_diameter + changed.element,
+            inner_groove_radius=self.inner_groove_radius * (1.0 + changed.inner_strain),
+            outer_groove_radius=self.outer_groove_radius * (1.0 + changed.outer_strain),
+            **self._as_clearance(changed.clearance),
+        )
+
+    def _as_clearance(self, clearance: float) -> dict[str, Any]:
+        """Fields that say a radial clearance [m]."""
+        return {"radial_clearance": clearance}
 
     def race_reach(self, ring: str) -> float:
         """Half of the width [m] of the "inner" or "outer" ring's groove between its shoulders, a
