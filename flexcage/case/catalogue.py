@@ -12,14 +12,14 @@ from functools import cache
 from typing import Any
 
 from flexcage.case.catalogues import rows
-from flexcage.case.designation import Designation, beside, plain, read, series
+from flexcage.case.designation import Designation, plain, read, series, unknown_part
 from flexcage.case.marks import applied, rated_by_user
-from flexcage.core.binding import near_names, told_elsewhere
+from flexcage.core.binding import near_names, replacement_of
 from flexcage.core.errors import InputError
 from flexcage.core.units import parse
 from flexcage.geometry.bearing import OTHER_DESIGNS
 from flexcage.geometry.full_complement import CAGED, FULL
-from flexcage.geometry.inside import Outline
+from flexcage.geometry.inference import Outline
 from flexcage.geometry.other_kinds import kind_of
 
 # columns of ratings that only some types of bearing have: the key, and the option of "flexcage new"
@@ -127,10 +127,10 @@ def _not_found(text: str, found: Designation | None) -> InputError:
                 f"series {', '.join(_uncaged_series())} with bores of 20 to 60 mm, and any other "
                 f"one is described by {_uncaged_way(uncaged[1])}",
             )
-        if told := told_elsewhere(name, OTHER_DESIGNS):
+        if told := replacement_of(name, OTHER_DESIGNS):
             return InputError(f"'{text}': {told}{_same_rollers(name)}.", where="designation",
                               value=text)  # fmt: skip
-        if parts := beside(text):
+        if parts := unknown_part(text):
             number, rest = parts
             return _refused(
                 text, f"has '{rest}' beside '{number}', which flexcage does not know; set it apart "

@@ -74,8 +74,8 @@ def read(text: str) -> Designation | None:
         joined = _marks_of([name[rest:]]) if unknown else ((), ())
         if unknown and not joined[1]:  # "2 RS"
             marks, unknown = joined
-        beside = bool(tokens) and rest not in cuts
-        if unknown and beside and not _marks_in(tokens[0])[0]:
+        trailing = bool(tokens) and rest not in cuts
+        if unknown and trailing and not _marks_in(tokens[0])[0]:
             continue
         return Designation(
             prefix=match["prefix"], series=own, code=match["code"], angle=angle,
@@ -90,7 +90,7 @@ def _of_a_bore(before: str, size: str, after: str) -> Designation | None:
     return replace(found, code=f"/{size}") if found and found.code == "00" else None
 
 
-def beside(text: str) -> tuple[str, str] | None:
+def unknown_part(text: str) -> tuple[str, str] | None:
     """Series and bore code as a designation begins, and what stands beside them; None for a text of
     another form."""
     name = plain(text)

@@ -9,7 +9,7 @@ from flexcage.case.catalogues import clearance_limits
 from flexcage.case.designation import Designation, meanings, prefixes
 from flexcage.core.errors import InputError
 from flexcage.geometry.full_complement import CAGED, FILLED
-from flexcage.geometry.inside import ClearanceGroup, MarkedCage, Outline
+from flexcage.geometry.inference import ClearanceGroup, MarkedCage, Outline
 
 _NORMAL = "CN"
 _FULL = ("V", "CV", "VH")  # without a cage

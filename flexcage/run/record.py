@@ -30,6 +30,7 @@ from flexcage.results.statistics import element_passes
 from flexcage.results.store import MemoryRunStore
 from flexcage.solve.contract import Effort
 from flexcage.stages import bent_rings
+from flexcage.static import solve_static
 from flexcage.stress.fatigue import Fatigue
 from flexcage.stress.history import StressHistory
 from flexcage.stress.recovery import StressRecovery
@@ -40,6 +41,7 @@ from flexcage.stress.sn_curves import SNCurve
 from flexcage.stress.wear import Wear, wear
 from flexcage.stress.wear_laws import WearLaw, wear_law
 from flexcage.system.begun import Start
+from flexcage.system.statics.rated import Lives
 from flexcage.system.statics.rings import SeatedRing
 
 if TYPE_CHECKING:
@@ -106,6 +108,11 @@ class RunRecord:
     def bearing(self) -> Bearing:
         """The bearing that ran: as the case has it, or as its [fit] leaves it."""
         return self.case.mounted.bearing
+
+    @cached_property
+    def lives(self) -> Lives | None:
+        """Lives as the case's [life] asks, of the static solution at the start; None without."""
+        return solve_static(self.case).lives if self.case.life.given else None
 
     @property
     def numbers(self) -> BearingNumbers:

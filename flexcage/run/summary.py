@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from flexcage.core.warning import RunWarning
 from flexcage.mesh.quality import report_mesh
 from flexcage.results import mode_file
 from flexcage.results.figures.cage import SUPPORT, CageFacts, cage_rows
@@ -23,11 +24,9 @@ from flexcage.results.warnings import from_attrs, warnings_of
 from flexcage.results.warnings_at_end import AT_END, CAGELESS_AT_END, RunOutcome
 from flexcage.run.elastic import elastic_shape
 from flexcage.run.folder import seam_warnings
-from flexcage.static import solve_static
-from flexcage.system.statics.options import AT_START
+from flexcage.system.statics.lives import questioned_lives
 
 if TYPE_CHECKING:
-    from flexcage.case import Case
     from flexcage.run.record import RunRecord
 
 
@@ -39,7 +38,7 @@ def summary_of(run: RunRecord, *, stress: bool = True) -> Summary:
     for rows in (
         FILM.rows(Lubricated(part, run.bearing, case.lubricant.oil)),
         [] if case.mounting is None else FITS.rows(case.mounting),
-        [] if not case.life.given else _lives(case),
+        [] if run.lives is None else LIFE.rows(run.lives),
         [FIGURES[edge.key].row(edge.found) for edge in run.groove_edges],
         SUPPORT.rows(case.held_in_words),
         _cage_rows(run),
@@ -52,11 +51,6 @@ def summary_of(run: RunRecord, *, stress: bool = True) -> Summary:
     if run.effort is not None:
         summary = summary.with_figures(SOLVER.rows(run.effort))
     return warned(timed(summary, run), run)
-
-
-def _lives(case: Case) -> tuple[SummaryRow, ...]:
-    lives = solve_static(case, options=AT_START).lives
-    return () if lives is None else LIFE.rows(lives)
 
 
 def part_of(run: RunRecord) -> SettledRun:
@@ -78,6 +72,10 @@ def warned(summary: Summary, run: RunRecord) -> Summary:
     """The summary with its warnings."""
     case = run.case
     known = (*from_attrs(run.dataset.attrs), *seam_warnings(run.store))
+    if run.lives is not None:
+        rating = case.static.dynamic_rating or run.bearing.dynamic_rating
+        rated = questioned_lives(run.lives, rating)
+        known = (*known, *(RunWarning("life", f"{t[0].upper()}{t[1:]}") for t in rated))
     outcome = RunOutcome(
         summary=summary,
         dataset=run.dataset,

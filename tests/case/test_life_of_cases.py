@@ -95,6 +95,8 @@ def test_a_run_has_them_as_figures():
     assert summary["life_a_iso"] == pytest.approx(lives.here.reference_modification)
     assert summary["life_nmrh"] == pytest.approx(3600.0 * lives.here.hours)
     assert "life_spectrum" not in summary
+    thin = case.replace({"lubricant.viscosity": 1e-4, "drive.speed": 20.0})
+    assert any("has a_ISO from 0.1 on" in w.text for w in simulate(thin).summary.warnings)
 
 
 def spectrum(*shares):

@@ -7,10 +7,12 @@ from functools import partial
 from flexcage.geometry.fits.mounting import Grip, Mounting
 from flexcage.results.figures.figure import FigureTable, Found
 
+_ALIKE = 1e-10  # m
+
 
 def _part(key: str, mounting: Mounting) -> Found:
     least, _, largest = values = mounting.part(key).values
-    within = f"{_um(least)} to {_um(largest)} within tolerances" if least != largest else ""
+    within = f"{_um(least)} to {_um(largest)} within tolerances" if largest - least > _ALIKE else ""
     return Found(values[mounting.taken], within)
 
 
