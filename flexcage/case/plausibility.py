@@ -224,7 +224,8 @@ def _of_other_steel(case: StaticCase) -> Iterator[Said]:
             OTHER_STEEL,
             f"Ratings are those of steel {case.bearing.element}s (ISO 76, ISO 281), but "
             f"bearing.element_material is {elements.name}: C is the same for silicon nitride "
-            "(ISO 20056-1), and C0 is lower (ISO 20056-2), which flexcage does not compute.",
+            "(ISO 20056-1), and C0, with C_u, is lower (ISO 20056-2), which flexcage does not "
+            "compute.",
         )
     for name in ("inner_ring", "outer_ring"):
         ring = getattr(case, name)

@@ -105,7 +105,7 @@ class Outline:
         return (
             found,
             f"assumption: in operation; {group.name} is {least} to {largest} um before "
-            "mounting (ISO 5753-1)",
+            f'mounting (ISO 5753-1); fit.clearance = "{group.name}" and your fits tell more',
         )
 
     def required(self, key: str, what: str) -> float:
