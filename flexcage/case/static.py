@@ -249,11 +249,14 @@ def load_static(
 
 
 def _put(table: Mapping[str, Any], keys: list[str], value: Any, path: str) -> dict[str, Any]:
-    """Copy of nested tables with one value replaced; lists are not part of static cases."""
+    """Copy of nested tables with one value replaced, also one of a table in a list."""
     head, *rest = keys
     if not rest:
         return {**table, head: value}
     below = table.get(head, {})
+    if isinstance(below, list) and rest[0].isdigit() and int(rest[0]) < len(below):
+        places = {str(k): item for k, item in enumerate(below)}
+        return {**table, head: [*_put(places, rest, value, path).values()]}
     if isinstance(below, str):
         below = {"name": below}  # a material by name, of which a value is overridden
     if not isinstance(below, Mapping):

@@ -71,6 +71,14 @@ def test_a_spectrum_of_one_point_is_the_load_itself():
     )
 
 
+def test_a_value_of_a_point_is_set_from_outside():
+    text = worked().to_toml()
+    changed = load_static(text, overrides={"life.spectrum.0.radial": "3 kN"})
+    assert [point.radial for point in changed.life.spectrum] == [3e3, 1e3, 0.0]
+    with pytest.raises(InputError, match="leads nowhere"):
+        load_static(text, overrides={"life.spectrum.3.radial": "3 kN"})
+
+
 def test_points_are_of_the_fit_at_their_own_speed():
     case = worked().replace({"life.spectrum.0.speed": "20000 rpm", "life.spectrum.2.share": 0.1})
     at_rest = case.replace("drive.speed", 500.0)
@@ -84,6 +92,12 @@ def test_starvation_takes_of_kappa():
     assert full.starved == 1.0 and 0.0 < less.starved < 1.0
     assert less.kappa == pytest.approx(full.kappa * less.starved**1.3)
     assert less.reference_life < full.reference_life
+    # a thicker oil needs more of it at the inlet
+    thick = case.replace({"life.inlet": "150 um", "lubricant.viscosity": 0.1})
+    assert solve_static(thick).lives.here.starved < less.starved
+    warm = {"life.viscosity_40": 116.3e-6, "life.viscosity_100": 14e-6, "life.temperature": 313.15}
+    as_thick = solve_static(case.replace({"life.inlet": "150 um", **warm})).lives.here
+    assert as_thick.starved == pytest.approx(solve_static(thick).lives.here.starved, rel=1e-3)
     dry = solve_static(case.replace("life.inlet", "1 um"))
     assert any("life.inlet lies within the heaviest contacts" in w for w in dry.warnings)
 

@@ -105,7 +105,9 @@ class RollerBearing(Bearing):
         "mm", doc="length Lwe of a roller without end chamfers", above=0.0
     )
     roller_count: int = option(doc="number Z of rollers", minimum=3)
-    radial_clearance: float = quantity("um", 0.0, doc="operating radial internal clearance Pd")
+    radial_clearance: float = quantity(
+        "um", 0.0, doc="operating radial clearance Pd; with [fit] before mounting"
+    )
     design: str = option(
         "N", choices=tuple(designs.DESIGNS),
         doc="ribs: N two on the inner ring, NU on the outer; NJ as NU and one on the inner, NUP as "

@@ -10,22 +10,22 @@ _FITTED = ("least", "mean", "largest")
 
 
 def clearance_note(mounting: Mounting) -> str:
-    """What the table of parts shows, and how both rings sit."""
+    """What the table of parts shows, and how both rings sit: a line each."""
     taken = _FITTED[mounting.taken]
     turning = f" at {mounting.speed * 30.0 / pi:.6g} rpm" if mounting.speed else ""
     parts = [
-        f"radial clearance in um{turning}: least and largest are of the limits of all tolerances, "
+        f"Radial clearance in um{turning}: least and largest are of the limits of all tolerances, "
         f"of which the bearing has the {taken} (fit.at)",
-        f"inner ring on its shaft: {_grip(mounting.inner, mounting.taken)}",
-        f"outer ring in its housing: {_grip(mounting.outer, mounting.taken)}",
+        f"Inner ring on its shaft: {_grip(mounting.inner, mounting.taken)}",
+        f"Outer ring in its housing: {_grip(mounting.outer, mounting.taken)}",
     ]
     if mounting.angles is not None and mounting.approach is not None:
         before, after = (f"{degrees(angle):.4g} deg" for angle in mounting.angles)
         parts.append(
-            f"free contact angle {before} before mounting, {after} in operation: the inner ring "
+            f"Free contact angle {before} before mounting, {after} in operation: the inner ring "
             f"meets its balls {1e6 * mounting.approach:.3g} um earlier along the axis"
         )
-    return "; ".join(parts)
+    return "\n".join(parts)
 
 
 def clearance_lines(mounting: Mounting) -> list[list[str]]:

@@ -10,6 +10,7 @@ import numpy as np
 from flexcage.contacts.spec import Lubricant
 from flexcage.core.units import describe
 from flexcage.geometry.bearing import Bearing
+from flexcage.geometry.film import Oil
 from flexcage.geometry.life.iso281 import (
     KAPPAS,
     Endurance,
@@ -38,7 +39,8 @@ def rated(
     at = life.temperature if temperature is None else temperature
     viscosity = _viscosity(life, lubricant, at)
     reference = reference_viscosity(speed, bearing.pitch_diameter) if speed else nan
-    starved = _starved(bearing, solution, life)
+    oil = Oil(viscosity * lubricant.density, lubricant.pressure_coefficient)
+    starved = _starved(bearing, solution, life, oil)
     kappa = viscosity / reference * starved**_FILM_TO_KAPPA if speed else nan
     load = ratings.equivalent_load
     equal = ratings.dynamic * ratings.reference_life ** (-1.0 / kind.life)  # that L10r is of
@@ -90,17 +92,18 @@ def _viscosity(life: Life, lubricant: Lubricant, temperature: float | None) -> f
     return viscosity_at(temperature, life.viscosity_40, life.viscosity_100)
 
 
-def _starved(bearing: Bearing, solution: StaticState, life: Life) -> float:
+def _starved(bearing: Bearing, solution: StaticState, life: Life, oil: Oil) -> float:
     """The least share of the flooded film that is left, of the most loaded contacts of both races;
     1 where the inlet is flooded."""
     if life.inlet is None or not solution.speed:
         return 1.0
-    diameter, races = bearing.element_diameter, bearing.race_diameters
-    found = []
+    diameter, races, e = bearing.element_diameter, bearing.race_diameters, solution.elements
+    entrained = bearing.rolling_entrainment(e.angle, e.orbital_speed, solution.speed)
+    central, found = bearing.race_film(e.force, entrained, oil).central, []
     for race, side in enumerate((1.0, -1.0)):
-        k = int(np.argmax(solution.elements.force[:, race]))
+        k = int(np.argmax(e.force[:, race]))
         radius = 0.5 * diameter * races[race] / (races[race] + side * diameter)
-        along, film = solution.elements.along[k, race], solution.film.central[k, race]
+        along, film = e.along[k, race], central[k, race]
         if along > 0.0 and isfinite(film):
             found.append(starved_share(life.inlet, float(along), radius, float(film)))
     return min(found, default=1.0)

@@ -66,7 +66,7 @@ def html_of(s: StaticState) -> str:
 def _clearance_html(s: StaticState) -> list[str]:
     if s.mounting is None:
         return []
-    note = html.paragraphs([clearance_note(s.mounting)])
+    note = html.paragraphs(clearance_note(s.mounting).split("\n"))
     return [html.folded("Clearance", note + _html_grid(clearance_lines(s.mounting)))]
 
 
