@@ -7,6 +7,7 @@ from flexcage.contacts.spec import FrictionLaw as FrictionLaw
 from flexcage.contacts.spec import LandSpec as LandSpec
 from flexcage.contacts.spec import Lubricant as Lubricant
 from flexcage.contacts.spec import NormalLaw as NormalLaw
+from flexcage.contacts.spec import OwnImpact as OwnImpact
 from flexcage.contacts.spec import PairSpec as PairSpec
 from flexcage.geometry.bearing import Bearing as Bearing
 from flexcage.geometry.bearing import RingLand as RingLand
