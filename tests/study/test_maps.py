@@ -16,6 +16,7 @@ from flexcage.study.maps import Map, MapResults, load_map, run_map
 from flexcage.study.outputs import check_outputs, never_negative
 from flexcage.study.own import register_outputs
 from flexcage.study.plan import make_plan
+from flexcage.study.results import StudyResults
 from flexcage.study.unknowns import Unknown
 
 OWN = Path(__file__).with_name("my_outputs.py")
@@ -116,6 +117,18 @@ def test_the_command_goes_on_with_a_map(done, tmp_path, capsys):
     assert main(["study", "map", str(folder.parent / "map.toml"), "-o", str(folder)]) == 0
     assert "8 done" in capsys.readouterr().out
     assert {case: case.stat().st_mtime_ns for case in cases} == cases
+
+
+def test_the_command_computes_some_points_on_another_mesh(done, tmp_path, capsys):
+    _, results, _ = done
+    file, other = results.study.folder.path.parent / "map.toml", tmp_path / "fine"
+    command = ["study", "map", str(file), "-o", str(other), "--workers", "1"]
+    assert main([*command, "--points", "1", "--fineness", "medium"]) == 0
+    assert "4 done" in capsys.readouterr().out  # two conditions of two starts
+    assert StudyResults(other).about.base["mesh"]["fineness"] == "medium"
+    with pytest.raises(SystemExit):
+        main([*command, "--points", "1,x"])
+    assert "should be whole numbers, as 0,3,17" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
