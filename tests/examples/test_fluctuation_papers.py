@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from flexcage.study import load_map, load_study
+from flexcage.study import load_study
 from flexcage.study.plan import make_plan
 
 PAPERS = Path(__file__).parents[2] / "examples" / "papers"
@@ -42,33 +42,6 @@ def module(folder: Path, name: str):
     return found
 
 
-@pytest.mark.parametrize(
-    ("folder", "points", "conditions"), [(WAVES, {6}, 12), (VIBRO, {6, 16}, 19)]
-)
-def test_readings_and_maps_are_plans(folder, points, conditions):
-    paper = loaded(folder)
-    plan = make_plan(load_study(folder / paper.readings))
-    assert len(plan.cases) == conditions * 8
-    asked = {p.point.labels["condition"] for p in plan.cases}
-    for files in paper.maps.values():
-        for file in files:
-            spec = load_map(folder / file)
-            assert len(make_plan(spec.study((0,))).cases) in points
-            assert {c["label"] for c in spec.conditions} <= asked
-            assert all(len(unknown.reason) > 7 for unknown in spec.unknowns)
-    assert {c.key for c in paper.claims} == set(paper.decided_by)
-    assert all(len(set(points)) == 5 for points in paper.rechecks.values())
-
-
-def test_a_screening_has_the_unknowns_of_its_map():
-    paper = loaded(WAVES)
-    screen, whole = (load_map(WAVES / f"{name}_bearing.toml") for name in ("screen", "map"))
-    assert screen.unknowns == whole.unknowns and screen.design == "morris"
-    for asked in paper.weighed["screen_bearing.toml"]:
-        assert asked.output in screen.outputs
-        assert asked.condition in {c["label"] for c in screen.conditions}
-
-
 def test_the_printed_reading_of_fluctuating_speed_is_as_the_paper_says():
     loaded(WAVES)
     plan = make_plan(load_study(WAVES / "readings.toml"))
@@ -81,8 +54,14 @@ def test_the_printed_reading_of_fluctuating_speed_is_as_the_paper_says():
     assert case.drive.wave_period == pytest.approx(10e-3)
 
 
+def failing(paper, at) -> list[str]:
+    """Findings that do not hold by these numbers."""
+    found = [(f"{c.key}, {name}", part) for c in paper.claims for name, part in c.parts.items()]
+    return [name for name, part in found if not part.holds(at)]
+
+
 def test_claims_on_fluctuating_speed_judge_the_papers_own_numbers():
-    """Numbers as printed, and curves that rise as the paper says, hold all claims; a cage that
+    """Numbers as printed, and curves that rise as the paper says, hold all findings; a cage that
     overshoots, or a calm one at 937 rpm, does not hold its own."""
     paper = loaded(WAVES)
     rpm = np.pi / 30
@@ -91,19 +70,23 @@ def test_claims_on_fluctuating_speed_judge_the_papers_own_numbers():
         "speed": [s * rpm for s in (922.42, 920, 921.13, 919, 918.66, 919)],
         "swing": [0.0289, 0.04, 0.064, 0.093, 0.0648, 0.065],
         "follows": [0.1, 0.4, 0.9, 0.9, 0.9, 0.9], "by_place": [0.99] * 6,
+        "main_frequency": [20, 30, 33, 33, 67, 100],
         "distance": [1e-4, 2e-4, 3e-4, 4e-4, 4e-4, 5e-4], "stray": [0.1, 0.15, 0.3, 0.4, 0.35, 0.4],
-        "one_force": [1, 2, 3, 4, 4, 5], "ring_distance": [1, 2, 3, 4, 4, 5],
+        "one_force": [1, 2, 3, 4, 4, 5], "ring_range": [1, 2, 3, 4, 4, 5],
         "ripple": [1, 2, 3, 4, 4, 5],
     }  # fmt: skip
 
     def at(output, condition):
         return good[output][CONDITIONS.index(condition)]
 
-    assert [c.key for c in paper.claims if not c.holds(at)] == []
+    assert failing(paper, at) == ["002-0c, its size"]  # the test's 927, where 922 are simulated
     good |= {"swing": [0.003, 0.042, 0.079, 0.106, 0.092, 0.101], "speed_whole": [937 * rpm] * 6}
     good |= {"follows": [0.1, 0.93, 0.96, 0.98, 0.92, 0.93], "ripple": [1.0] * 6}
-    fails = [c.key for c in paper.claims if not c.holds(at)]
-    assert fails == ["002-0b", "002-1b", "002-2", "002-2b", "002-5b", "002-7"]
+    good |= {"speed": [927 * rpm] * 6}
+    assert failing(paper, at) == [
+        "002-0b, its size", "002-1b, close at 6 %", "002-1b, close at 9 %", "002-2, no period",
+        "002-2b, a floor", "002-5, forces", "002-7, same", "002-9, forces",
+    ]  # fmt: skip
 
 
 def test_figures_of_a_speed_that_fluctuates():
@@ -146,23 +129,72 @@ def test_table_5_is_what_the_paper_prints():
 
 
 def test_claims_on_vibro_impacts_judge_numbers_of_known_order():
+    """Numbers in the order that the text says hold all findings; numbers that nothing changes hold
+    only those that ask for a size, or for none."""
     paper = loaded(VIBRO)
+    steps = {"4000": 1.0, "8000": 1.1, "12000": 1.3, "sine": 1.0, "triangle": 1.1, "rectangle": 1.3,
+             "slow": 1.0, "medium": 1.2, "fast": 1.4, "radial 5000 N": 1.0, "radial 12500 N": 1.5,
+             "0.02": 1.0, "0.14": 1.4}  # fmt: skip
 
-    def at(output, condition):
-        rising = {"4000": 1.0, "8000": 1.1, "12000": 1.3, "5000 N": 1.0, "12500 N": 1.5}
-        order = {"0.02": 1.0, "0.08": 1.2, "0.14": 1.4, "sine": 1.0, "triangle": 1.1,
-                 "rectangle": 1.3, "slow": 1.0, "medium": 1.2, "fast": 1.4}  # fmt: skip
-        x = rising.get(condition, order.get(condition.split()[-1]))
-        falls = condition in ("4000", "12000") or "0." in condition
+    def ordered(output, condition):
+        x = steps.get(condition, steps.get(condition.split()[-1]))
+        speed, clear = condition in ("4000", "8000", "12000"), "0." in condition
+        chaotic = condition in ("4000", "radial 12500 N") or condition.endswith("0.14")
         return {
-            "deviation": 0.5 / x if condition in ("4000", "12000") else 0.163 * x,
-            "line": 0.3 if condition in ("4000", "12500 N") or x > 1.3 else 0.8,
-            "circle": 0.3, "gaps": 0.2, "outer_load": 0.2, "inner_off": 1.0 / x,
-            "one_peak": x if "0." not in condition else 1.0 / x,
-            "inner_load": 0.26 if condition in ("4000", "12000") else 1.0 / x if falls else x,
+            "deviation": 0.5 / x if speed else 0.163 * x, "slip": 0.01, "off_force": 0.1,
+            "line": 0.3 if chaotic else 0.9 / x, "boundary": 0.3, "gaps": 0.2 * x,
+            "inner_load": 0.26 if speed else 0.3 / x if clear else 0.3 * x,
+            "outer_load": 0.25, "outer_off": 0.2 / x, "load_force": 1.0,
         }.get(output, x)  # fmt: skip
 
-    assert [c.key for c in paper.claims if not c.holds(at)] == []
+    assert failing(paper, ordered) == []
+    flat = failing(paper, lambda output, condition: {"outer_load": 0.25}.get(output, 0.2))
+    assert {"004-1, rises", "004-2b, falls", "004-4d, rises", "004-6, force"} <= set(flat)
+    assert not {"004-3, inner", "004-3, outer", "004-1b, zeros"} & set(flat)
+
+
+def test_an_orbits_boundary_is_even_for_a_circle_and_for_what_fills_it():
+    loaded(VIBRO)
+    f = sys.modules["outputs"]
+    turn = np.linspace(0.0, 40.0 * np.pi, 8000)
+    circle = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    assert f.uneven_boundary(circle) < 0.01
+    chaos = circle * np.random.default_rng(1).uniform(0.0, 1.0, (8000, 1)) ** 0.5
+    assert f.uneven_boundary(chaos) < 0.05
+    assert f.uneven_boundary(circle * [2.0, 1.0]) > 0.5
+    assert f.uneven_boundary(circle * [1.0, 0.0]) >= 2.0
+
+
+def test_the_mass_centre_of_an_unbalanced_cage_circles_with_the_cage():
+    """Beside the pockets' centre by unbalance over mass, and at the speed of that circle."""
+    import flexcage
+
+    loaded(VIBRO)
+    f = sys.modules["outputs"]
+    changes = {"cage.unbalance": "0.2 g*mm", "cage.unbalance_phase": "30 deg",
+               "solver.duration": "2 ms", "output.settle": 0.0}  # fmt: skip
+    run = flexcage.simulate(flexcage.load_case(VIBRO / "case.toml", overrides=changes))
+    place, velocity = f.mass_centre(run.dataset, run)
+    away = 2e-7 / run.summary["cage_mass"]
+    apart = place - f.metrics.orbit(run.dataset)
+    np.testing.assert_allclose(np.hypot(*apart.T), away, rtol=1e-6)
+    assert np.degrees(np.arctan2(apart[0, 1], apart[0, 0])) == pytest.approx(30.0, abs=0.5)
+    slopes = np.gradient(place, run.dataset["time"].values, axis=0)[1:-1]
+    scale = np.abs(velocity).max()
+    np.testing.assert_allclose(velocity[1:-1, 1:], slopes, atol=0.02 * scale)
+
+
+def test_halves_of_a_record_that_differ_by_a_tenth_beyond_chance_drift():
+    from flexcage.results.statistics import Windows
+
+    loaded(VIBRO)
+    f = sys.modules["outputs"]
+    n = 4000
+    passes = Windows(n, np.arange(80) * n // 80, 18)
+    noise = 1.0 + 0.05 * np.random.default_rng(1).standard_normal(n)
+    assert f.drifts(noise, passes) == 0.0
+    assert f.drifts(noise * np.linspace(1.0, 1.05, n), passes) == 0.0  # little, if not by chance
+    assert f.drifts(noise * np.linspace(1.0, 2.0, n), passes) == 1.0
 
 
 def test_predictions_are_the_rows_that_are_asked_for():
@@ -188,12 +220,3 @@ def test_a_likelihood_follows_points_that_have_the_shown_rows():
     assert np.all(low < [5.0, 13.0, 7.5]) and np.all(high > [5.0, 13.0, 7.5])
     alone = predict.fluctuations({"constant": 3.0, "A 6 %": 6.5, "N 2": 6.5}, np.zeros((0, 6)), rng)
     assert 3.0 < np.median(alone[:, 0]) < 4.75 and 8.2 < np.median(alone[:, 1]) < 9.75
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["speed_fluctuation", "c7010_vibro_impact"])
-def test_the_papers_from_end_to_end(name, tmp_path, capsys):
-    found = importlib.import_module(name).main(["--quick", "-o", str(tmp_path / "quick")])
-    reading = next(iter(found.readings.values()))
-    assert reading.starts == 1 and reading.look == 0 and len(found.lines) >= 11
-    assert found.lines[0].key in capsys.readouterr().out

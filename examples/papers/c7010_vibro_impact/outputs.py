@@ -17,11 +17,12 @@ from flexcage import register
 from flexcage.results import metrics
 from flexcage.results.lowpass import butterworth, low_passed_both_ways
 from flexcage.results.reductions import main_line, mean_frequency
-from flexcage.results.statistics import element_passes
+from flexcage.results.statistics import Windows, element_passes
 
 LOW_PASS = 2e3  # Hz, of the cage's speed beside the raw samples
 SECTOR = radians(30.0)  # to either side of the load, and of the place opposite
 FORCED = (0, 6, 12)  # balls whose forces' spectra are averaged
+APART = 0.1  # of their mean, by which halves of a record are not the same
 PARTS = 12  # of the way round an orbit, in each of which its boundary is its largest radius
 UNITS = {
     "drifts": "",  # 1 where the whirl of the record's halves differs
@@ -77,10 +78,9 @@ def cage_motion(ds, run) -> dict[str, float]:
     orbit, velocity = mass_centre(ds, run)
     about = orbit - orbit.mean(axis=0)
     radius = np.linalg.norm(about, axis=1)
-    passes = element_passes(ds, run.numbers)
     shares = [main_line(x, step)[1] for x in orbit.T]
     return {
-        "drifts": float(passes.mean(radius).drift > 1.0),
+        "drifts": drifts(radius, element_passes(ds, run.numbers)),
         "speed": float(omega.mean()),
         "slip": float(slip.mean()),
         "slip_ripple": float(slip.std()),
@@ -92,6 +92,13 @@ def cage_motion(ds, run) -> dict[str, float]:
         "radius": float(radius.mean()),
         "distance": float(np.linalg.norm(orbit, axis=1).max()),
     }
+
+
+def drifts(x: np.ndarray, passes: Windows) -> float:
+    """1 if the halves of a record (n,) differ beyond chance and by more than ``APART``, else 0."""
+    one, other = (half.mean() for half in np.array_split(x, 2))
+    apart = abs(one - other) > APART * x.mean()
+    return float(apart and passes.mean(x).drift > 1.0)
 
 
 def balls(ds, direction: float) -> dict[str, float]:

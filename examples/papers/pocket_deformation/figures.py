@@ -42,7 +42,7 @@ def corner(run: Run) -> tuple[np.ndarray, np.ndarray]:
 def radial(run: Run) -> tuple[np.ndarray, np.ndarray]:
     """Distance of the cage's centre from the axis [um] over time [ms]."""
     away = metrics.whirl_radius(run.dataset, about="axis") * UM
-    return run.dataset["time"].values * 1e3, away.values
+    return run.dataset["time"].values * 1e3, away
 
 
 def shake(run: Run) -> tuple[np.ndarray, np.ndarray]:

@@ -1,269 +1,226 @@
-"""The paper's Figures 5 to 19 from what was computed, and its tables laid beside."""
+"""The paper's figures from what was computed, laid out as the paper has them: cage speeds overlaid,
+orbits and forces a panel a condition, on one scale; numbers that it prints are marked."""
 
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable
-from math import pi
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from math import cos, pi, sin
 from pathlib import Path
 
 import numpy as np
-from claims import CONDITIONS, CONSTANT, OVER_A, OVER_N
-from outputs import HARMONICS, analytical
-from paper_figures import bands, claim_map, stress
-from paper_page import Picture, Table
+from claims import A3, A6, A9, CONSTANT, N2, N3
+from judging.panels import Panel, arrow, sheet_of
+from judging.pictures import bands, overlaid, starts
+from matplotlib.axes import Axes
 
-from flexcage import Run, load_case
+from flexcage import Run
 from flexcage.render import sheet
 from flexcage.results import metrics
 
 PRINTED = tomllib.loads((Path(__file__).with_name("printed.toml")).read_text("utf-8"))
-RPM, UM, PERCENT = 30.0 / pi, 1e6, 100.0
-BETTER, PRINTED_MODEL = "better model", "as printed"  # columns of readings
-MODEL, BEARING = "map of the model", "map of the bearing"  # columns of maps
-COLOURS = {MODEL: sheet.ORANGE, BEARING: sheet.BLUE}
-MARKS = {BETTER: ("o", sheet.GREEN), PRINTED_MODEL: ("s", sheet.PURPLE)}
-AMPLITUDES = {CONSTANT: 0.0, "A 3 %": 3.0, "A 6 %": 6.0, "A 9 %": 9.0}
-WAVES = {CONSTANT: 0.0, "A 6 %": 1.0, "N 2": 2.0, "N 3": 3.0}
-MAPPED = "002-3b"  # claim whose map is drawn
-SKEWED = ("one_force", "swing")  # outputs whose starts and points lie over decades
-LAST = 4  # turns of the ring that are drawn of a curve over time
-FORCES = "of one ball, N"
+RPM, UM, NM, PERCENT = 30.0 / pi, 1e6, 1e9, 100.0
+READINGS = {"printed": "as printed", "better": "better model"}
+TINTS = {"printed": sheet.INK, "better": sheet.GREEN}
+BY_A = {CONSTANT: 0.0, A3: 3.0, A6: 6.0, A9: 9.0}  # %
+BY_N = {CONSTANT: 0.0, A6: 1.0, N2: 2.0, N3: 3.0}
+NAMES_A = {c: f"A = {a:.0f} %" for c, a in BY_A.items()}
+NAMES_N = {c: f"N = {n:.0f}" for c, n in BY_N.items()}
+LEVELS = {
+    "LS-DYNA 922": PRINTED["table_5"]["ls_dyna"]["speed"], "test 927": PRINTED["text"]["test"],
+    "theory 935": PRINTED["table_5"]["theory"]["speed"],
+}  # fmt: skip
+LAST = 120.0  # ms that are drawn of a curve over time: four turns of the ring
+
+Curve = Callable[[Run], tuple[np.ndarray, np.ndarray]]
 
 
-def draw(computed, folder: Path) -> list[Picture]:
-    """All pictures, in the paper's order."""
-    curves = (
-        ("figure_5_6_13", "Cage speed", "rpm; grey: the cage of balls that roll without slip",
-         _cage_speed, (700.0, 1200.0)),
-        ("figure_8_15", "Force between one ball and the cage", FORCES, _pocket_force, None),
-        ("figure_12_19", "Force between one ball and the inner ring", FORCES, _race_force, None),
-    )  # fmt: skip
-    for file, title, note, curve, limits in curves:
-        over_time(computed, folder / f"{file}.png", title, note, curve, limits)
-    orbits(computed, folder / "figure_7_14.png", "cage")
-    orbits(computed, folder / "figure_10_17.png", "inner")
-    over_both(
-        computed,
-        folder / "figure_9_16.png",
-        "Cage: largest distance and largest force",
-        (("distance", UM, "distance, um"), ("one_force", 1.0, "force of one ball, N")),
-    )
-    over_both(
-        computed,
-        folder / "figure_11_18.png",
-        "Inner ring: largest distance",
-        (("ring_distance", UM, "distance, um"), ("ripple", PERCENT, "force's rest, %")),
-    )
-    over_both(
-        computed,
-        folder / "tables_6_7.png",
-        "Cage speed: mean and fluctuation",
-        (("speed", RPM, "mean, rpm"), ("swing", PERCENT, "fluctuation, %")),
-        printed=True,
-    )
-    title, of = "Where force between ball and cage grows with A and N", "the map of the model"
-    claim_map(computed, MODEL, MAPPED, folder / "map_002_3b.png", title, of)
-    return [
-        Picture("figure_5_6_13.png", "Figures 5, 6 and 13: cage speed over time",
-                "First starts, the last four turns of the ring. The paper's Figure 5 has 922 rpm "
-                "at constant speed."),
-        Picture("figure_7_14.png", "Figures 7 and 14: the cage's centre",
-                "First starts, settled part, radial load down; one scale a row."),
-        Picture("figure_8_15.png", "Figures 8 and 15: force between one ball and the cage",
-                "Largest since the sample before, of ball 0."),
-        Picture("figure_9_16.png", "Figures 9 and 16: largest distance and force of the cage",
-                "Dots are starts, bands the middle 80 % of points of a map. The paper prints no "
-                "numbers: its curves rise with A and N."),
-        Picture("figure_10_17.png", "Figures 10 and 17: the inner ring's centre",
-                "About its mean place; one scale a row."),
-        Picture("figure_11_18.png", "Figures 11 and 18: largest distance of the inner ring",
-                "Beside it what a ball's place does not make of its force (Figures 12 and 19)."),
-        Picture("figure_12_19.png", "Figures 12 and 19: force between one ball and the inner ring",
-                f"Ball 0. Its place alone, {HARMONICS} harmonics of it, makes nearly all."),
-        Picture("tables_6_7.png", "Tables 6 and 7: mean and fluctuation of the cage's speed",
-                "Triangles and crosses are printed numbers of Tables 6 and 7; A = 6 % and N = 1 "
-                "are one case with two numbers."),
-        Picture("map_002_3b.png", f"Map of claim {MAPPED}",
-                "Blue points hold, red ones do not; lines are shares over quarters of a range."),
-        *stress(
-            computed, folder, "Stress of the cage at A = 6 %, N = 3",
-            "Better model with a flexible cage, 60 ms: equivalent stress at its largest. "
-            "The paper's cage is elastic, but it shows no stress.",
-        ),
-    ]  # fmt: skip
+def settled(run: Run):
+    """The settled part of a run."""
+    return metrics.settled(run.dataset, run.case.output.settle)
 
 
-def _cage_speed(run) -> tuple[np.ndarray, np.ndarray | None]:
-    ds = run.dataset
-    ideal = run.numbers.kinematics(1.0).cage_speed * ds["inner_speed"].values
-    return ds["cage_omega"].sel(axis="x").values * RPM, ideal * RPM
+def cage_speed(run: Run) -> tuple[np.ndarray, np.ndarray]:
+    """Speed of the cage [rpm] over time [ms], from the start on."""
+    return run.dataset["time"].values * 1e3, run.dataset["cage_omega"].sel(axis="x").values * RPM
 
 
-def _pocket_force(run) -> tuple[np.ndarray, np.ndarray | None]:
-    return metrics.pocket_peaks(run.dataset).values.max(axis=2)[:, 0], None
+def race_force(run: Run) -> tuple[np.ndarray, np.ndarray]:
+    """Force of one ball on the inner ring [N] over time [ms]."""
+    force = run.dataset["race_force"].sel(race="inner", element=0).values
+    return run.dataset["time"].values * 1e3, force
 
 
-def _race_force(run) -> tuple[np.ndarray, np.ndarray | None]:
-    return run.dataset["race_force"].sel(race="inner", element=0).values, None
+@dataclass(frozen=True)
+class Pictures:
+    """Panels of what was computed."""
 
+    computed: object
 
-def over_time(computed, path: Path, title: str, note: str, curve: Callable,
-              limits: tuple[float, float] | None) -> Path:  # fmt: skip
-    """A curve of every condition, one row a reading."""
-    wide, high, left, top = 250, 190, 215, 130
-    with sheet.style():
-        figure = sheet.new_figure(
-            left + 6 * (wide + 46), top + len(computed.readings) * (high + 80) + 20
-        )
-        sheet.heading(figure, title, f"{note}; over ms")
-        for i, column in enumerate(computed.readings):
-            sheet.text_at(figure, 20, top + i * (high + 80) + 0.5 * high, column)
-            runs = done(computed.readings[column])
-            drawn = {c: (r.dataset["time"].values * 1e3, *curve(r)) for c, r in runs.items()}
-            shown = {c: t > t[-1] - 30.0 * LAST for c, (t, _, _) in drawn.items()}
-            top_of = max((float(y[shown[c]].max()) for c, (_, y, _) in drawn.items()), default=1.0)
-            for c, (t, y, beside) in drawn.items():
-                k, s = CONDITIONS.index(c), shown[c]
-                place = (left + k * (wide + 46), top + i * (high + 80), wide, high)
-                ax = sheet.axes_at(figure, place)
-                if beside is not None:
-                    ax.plot(t[s], beside[s], color="0.65", lw=1.2)
-                ax.plot(t[s], y[s], color=sheet.BLUE, lw=0.7)
-                ax.set(xlim=(t[s][0], t[-1]), ylim=limits or (0.0, 1.05 * top_of))
-                _once(ax, c, first=k == 0)
-        return sheet.save(figure, path)
+    @property
+    def columns(self) -> list[str]:
+        """Readings that there are."""
+        return list(self.computed.readings)
 
+    def there(self, column: str, names: Mapping[str, str]) -> dict[str, str]:
+        """Conditions that a reading has."""
+        return {c: n for c, n in names.items() if c in self.computed.readings[column].conditions}
 
-def _once(ax, title: str, *, first: bool) -> None:
-    """A panel of a row on one scale: its title, and numbers up the first one's axis alone."""
-    ax.set_title(title, loc="left")
-    ax.tick_params(labelleft=first)
-    ax.locator_params(axis="x", nbins=3)
+    def row(self, names: Mapping[str, str], curve: Curve, unit: str, *, whole: bool = False,
+            marked: bool = False) -> list[Panel]:  # fmt: skip
+        """A panel a reading: conditions overlaid, the last turns or all; printed speeds marked."""
 
+        def draw(column: str) -> Callable[[Axes], None]:
+            def drawn(ax: Axes) -> None:
+                overlaid(ax, self.computed.readings[column], self.there(column, names), curve)
+                end = max(line.get_xdata()[-1] for line in ax.lines)
+                begin = 0.0 if whole else max(end - LAST, 0.0)
+                ax.set_xlim(begin, end)
+                for name, value in LEVELS.items() if marked else ():
+                    ax.axhline(value, color="0.5", lw=0.8, ls="--")
+                    ax.annotate(name, (end, value), fontsize=7, ha="right", va="bottom")
+                if marked:
+                    ax.set_ylim(900.0, 945.0)
 
-def done(reading) -> dict[str, Run]:
-    """First starts of a reading, of the conditions that have one."""
-    return {c: reading.run(c) for c in CONDITIONS if len(reading.values("speed", c))}
+            return drawn
 
+        return [Panel(READINGS[c], "time / ms", unit, draw(c), unit) for c in self.columns]
 
-def orbits(computed, path: Path, body: str) -> Path:
-    """Orbits of the cage's or the inner ring's centre, one row a reading."""
-    side, left, top = 240, 200, 130
-    name = {"cage": "cage's centre", "inner": "inner ring's centre, about its mean"}[body]
-    with sheet.style():
-        figure = sheet.new_figure(
-            left + 6 * (side + 50), top + len(computed.readings) * (side + 80) + 20
-        )
-        sheet.heading(figure, f"Orbits of the {name}", "um; radial load down")
-        for i, column in enumerate(computed.readings):
-            sheet.text_at(figure, 20, top + i * (side + 80) + 0.5 * side, column)
-            found = {}
-            for c, run in done(computed.readings[column]).items():
-                yz = metrics.centre_of(metrics.settled(run.dataset, run.case.output.settle), body)
-                found[c] = UM * (yz - (yz.mean(axis=0) if body == "inner" else 0.0))
-            reach = 1.08 * max((float(np.abs(yz).max()) for yz in found.values()), default=1.0)
-            for c, yz in found.items():
-                k = CONDITIONS.index(c)
-                place = (left + k * (side + 50), top + i * (side + 80), side, side)
-                ax = sheet.axes_at(figure, place)
-                ax.plot(yz[:, 1], -yz[:, 0], color=sheet.BLUE, lw=0.5)
+    def orbits(self, names: Mapping[str, str], body: str, column: str, factor: float,
+               unit: str) -> list[Panel]:  # fmt: skip
+        """Orbits of the cage about the axis, or of the inner ring about its mean place: a panel a
+        condition, all on one scale; the load is down."""
+        found = {}
+        for c in self.there(column, names):
+            yz = metrics.centre_of(settled(self.computed.readings[column].run(c)), body) * factor
+            found[c] = yz - (yz.mean(axis=0) if body == "inner" else 0.0)
+        reach = 1.05 * max((np.abs(yz).max() for yz in found.values()), default=1.0)
+
+        def draw(c: str) -> Callable[[Axes], None]:
+            def drawn(ax: Axes) -> None:
+                ax.plot(found[c][:, 1], -found[c][:, 0], color=TINTS[column], lw=0.5)
                 ax.set(xlim=(-reach, reach), ylim=(-reach, reach))
-                _once(ax, c, first=k == 0)
-        return sheet.save(figure, path)
+
+            return drawn
+
+        return [Panel(f"{names[c]}, {READINGS[column]}", f"z / {unit}", f"-y / {unit}", draw(c),
+                      square=True) for c in found]  # fmt: skip
+
+    def pocket_forces(self, names: Mapping[str, str], column: str) -> list[Panel]:
+        """Force between one ball and the cage over the last turns, a panel a condition."""
+
+        def draw(c: str) -> Callable[[Axes], None]:
+            def drawn(ax: Axes) -> None:
+                ds = self.computed.readings[column].run(c).dataset
+                time = ds["time"].values * 1e3
+                force = metrics.pocket_peaks(ds).values.max(axis=2)[:, 0]
+                ax.plot(time, force, color=TINTS[column], lw=0.6)
+                ax.set(xlim=(max(time[-1] - LAST, 0.0), time[-1]), ylim=(0.0, None))
+
+            return drawn
+
+        return [Panel(f"{names[c]}, {READINGS[column]}", "time / ms", "force / N", draw(c), column,
+                      square=True) for c in self.there(column, names)]  # fmt: skip
+
+    def over(self, output: str, axis: Mapping[str, float], factor: float, unit: str, below: str,
+             table: str = "") -> Panel:  # fmt: skip
+        """An output over the conditions: settings, starts of both readings, printed numbers."""
+
+        def drawn(ax: Axes) -> None:
+            if "model" in self.computed.samples:
+                bands(ax, self.computed.samples["model"], output, axis, factor)
+            for column, reading in self.computed.readings.items():
+                starts(ax, reading, output, axis, factor, colour=TINTS[column],
+                       label=READINGS[column])  # fmt: skip
+            shown = PRINTED[table][output] if table else {}
+            if shown:
+                ax.plot([axis[c] for c in shown], list(shown.values()), "^", ms=7, mfc="none",
+                        color=sheet.VERMILION, label="printed")  # fmt: skip
+            ax.legend(loc="best", fontsize=8, frameon=False)
+
+        return Panel("", below, unit, drawn)
 
 
-def over_both(computed, path: Path, title: str, outputs, *, printed: bool = False) -> Path:
-    """Outputs over the amplitude and over the frequency: readings, maps, and printed numbers."""
-    wide, high, gap, left, top = 520, 250, 110, 90, 130
+def draw(computed, folder: Path) -> dict[str, str]:
+    """All sheets by the figures that they repeat."""
+    p = Pictures(computed)
+    first = p.columns[0]
+    a, n = "A / %", "N"
+    still = {CONSTANT: "constant speed"}
+
+    def speeds(names, axis, table, below) -> list[list[Panel]]:
+        return [p.row(names, cage_speed, "cage speed / rpm"),
+                [p.over("speed", axis, RPM, "mean speed / rpm", below, table),
+                 p.over("swing", axis, PERCENT, "fluctuation A_c / %", below, table)]]  # fmt: skip
+
+    def cage(names, axis, below) -> list[list[Panel]]:
+        return [p.orbits(names, "cage", first, UM, "um"), p.pocket_forces(names, first),
+                [p.over("distance", axis, UM, "largest distance / um", below),
+                 p.over("one_force", axis, 1.0, "largest force / N", below)]]  # fmt: skip
+
+    def ring(names, axis, below) -> list[list[Panel]]:
+        return [p.orbits(names, "inner", first, NM, "nm"),
+                [p.over("ring_range", axis, NM, "range of the orbit / nm", below),
+                 p.over("ring_distance", axis, UM, "largest distance / um", below)],
+                p.row(names, race_force, "force / N")]  # fmt: skip
+
+    rows = {
+        "5": [p.row(still, cage_speed, "cage speed / rpm", whole=True, marked=True)],
+        "6": speeds(NAMES_A, BY_A, "table_6", a), "7_9": cage(NAMES_A, BY_A, a),
+        "10_12": ring(NAMES_A, BY_A, a), "13": speeds(NAMES_N, BY_N, "table_7", n),
+        "14_16": cage(NAMES_N, BY_N, n), "17_19": ring(NAMES_N, BY_N, n),
+    }  # fmt: skip
+    found = {"sketch": sketch(folder / "sketch.png")}
+    for key, panels in rows.items():
+        title = f"Figure{'s' * ('_' in key)} {key.replace('_', ' to ')}"
+        found[key] = sheet_of(folder / f"figure_{key}.png", title, panels)
+    return found
+
+
+def sketch(path: Path) -> str:
+    """The bearing in section, and the ring's speed, with the symbols of the page."""
     with sheet.style():
-        figure = sheet.new_figure(left + 2 * (wide + gap) + 240, top + len(outputs) * (high + 80))
-        sheet.heading(figure, title, "over the amplitude A in % (left) and over N at A = 6 %")
-        for i, (output, factor, name) in enumerate(outputs):
-            for k, axis in enumerate((AMPLITUDES, WAVES)):
-                place = (left + k * (wide + gap), top + i * (high + 80), wide, high)
-                ax = sheet.axes_at(figure, place)
-                bands(ax, computed, output, axis, factor, colours=COLOURS, marks=MARKS,
-                      shift=0.015 * max(axis.values()))  # fmt: skip
-                if output in SKEWED:
-                    ax.set_yscale("log")
-                if printed:
-                    _numbers(ax, output, axis)
-                ax.set(
-                    ylabel=name if k == 0 else "",
-                    xlim=(-0.12 * max(axis.values()), 1.08 * max(axis.values())),
-                )
-                if i == len(outputs) - 1:
-                    ax.set_xlabel("A, %" if k == 0 else "N")
-                if (i, k) == (0, 1):
-                    ax.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0))
-        return sheet.save(figure, path)
+        figure = sheet.new_figure(900, 400)
+        sheet.heading(figure, "Bearing, loads and speed", "")
+        section = sheet.axes_at(figure, (60, 90, 360, 270))
+        draw_section(section)
+        section.set(aspect="equal")
+        section.axis("off")
+        ax = sheet.axes_at(figure, (520, 110, 330, 210))
+        turn = np.linspace(0.0, 2.0, 300)
+        for count, colour in ((1, sheet.BLUE), (3, sheet.VERMILION)):
+            ax.plot(turn, 1.0 + 0.06 * np.sin(2.0 * pi * count * turn), color=colour,
+                    label=f"N = {count}")  # fmt: skip
+        ax.axhline(1.0, color="0.6", lw=0.8)
+        ax.set(xlabel="turns of the ring", ylabel="n_i / n_0", ylim=(0.9, 1.14))
+        ax.annotate("A", (0.27, 1.03), fontsize=11)
+        ax.legend(fontsize=8, frameon=False, loc="upper right", ncol=2)
+        sheet.save(figure, path)
+    return path.name
 
 
-def _numbers(ax, output: str, axis: dict[str, float]) -> None:
-    for table, marker in (("table_6", "^"), ("table_7", "X")):
-        shown = {c: v for c, v in PRINTED[table][output].items() if c in axis}
-        ax.plot(
-            [axis[c] for c in shown],
-            list(shown.values()),
-            marker,
-            ms=7.0,
-            color=sheet.INK,
-            ls="none",
-            label=f"paper, Table {table[-1]}",
-        )
-
-
-def middle(joined, output: str, condition: str, factor: float) -> str:
-    """Median of a map, and its middle 80 %."""
-    found = joined.spread(output, condition)
-    if found is None:
-        return "-"
-    low, mid, high = found * factor
-    digits = 1 if abs(mid) >= 100.0 else 2
-    return f"{mid:,.{digits}f} ({low:,.{digits}f} to {high:,.{digits}f})"
-
-
-def tables(computed) -> list[Table]:
-    """Tables 5 to 7 of the paper beside what was computed."""
-    heads = (*computed.readings, *computed.maps)
-
-    def cells(output: str, condition: str, factor: float) -> tuple[str, ...]:
-        return (
-            *(r.said(output, condition, factor) for r in computed.readings.values()),
-            *(middle(m, output, condition, factor) for m in computed.maps.values()),
-        )
-
-    own = analytical(load_case(Path(__file__).with_name("case.toml")).bearing)
-    kinds = (
-        ("cage speed [rpm]", "speed", RPM), ("velocity of inner contacts [m/s]", "v_inner", 1.0),
-        ("velocity of balls [m/s]", "v_ball", 1.0),
-        ("balls over the inner ring [1/min]", "passes_inner", 1.0),
-        ("balls over the outer ring [1/min]", "passes_outer", 1.0),
-    )  # fmt: skip
-    five = PRINTED["table_5"]
-    rows = [
-        (title, f"{five['theory'][key]:g} ({own[key] * factor:,.5g})",
-         f"{five['ls_dyna'][key]:g}", *cells(key, CONSTANT, factor))
-        for title, key, factor in kinds
-    ]  # fmt: skip
-    both = []
-    for title, key, factor in (("mean speed [rpm]", "speed", RPM),
-                               ("mean from the start on [rpm]", "speed_whole", RPM),
-                               ("fluctuation [%]", "swing", PERCENT)):  # fmt: skip
-        for c in CONDITIONS:
-            paper = [
-                f"{PRINTED[t][key][c]:g} (T{t[-1]})" for t in ("table_6", "table_7")
-                if c in PRINTED[t].get(key, {})
-            ]  # fmt: skip
-            both.append((title, c, ", ".join(dict.fromkeys(paper)) or "-", *cells(key, c, factor)))
-    return [
-        Table("Table 5, constant speed; theory as printed and (equations 6 to 10 for the preset). "
-              "Readings: mean of all starts ± 95 %; maps: median (middle 80 %)",
-              ("quantity", "theory", "LS-DYNA", *heads), rows),
-        Table("Tables 6 and 7", ("quantity", "case", "paper", *heads), both),
-    ]  # fmt: skip
-
-
-assert set(PRINTED) == {"table_5", "table_6", "table_7", "text"}
-assert set(OVER_A) == set(AMPLITUDES) and set(OVER_N) == set(WAVES)
+def draw_section(ax: Axes) -> None:
+    """A ball between its races at 60 degrees, the loads, the pitch circle."""
+    turn, lean = np.linspace(0.0, 2.0 * pi, 200), pi / 3.0
+    ax.fill(np.cos(turn), np.sin(turn), color="0.85")
+    to = np.array([sin(lean), cos(lean)])
+    for sign, text, colour in ((1.0, "outer race", sheet.BLUE),
+                               (-1.0, "inner race", sheet.VERMILION)):  # fmt: skip
+        arc = np.arctan2(sign * to[1], sign * to[0]) + np.linspace(-0.7, 0.7, 60)
+        groove = -0.1 * sign * to[:, None] + 1.1 * np.stack([np.cos(arc), np.sin(arc)])
+        ax.plot(*groove, color=colour, lw=2.0)
+        ax.text(*(1.5 * sign * to), text, color=colour, fontsize=9, ha="left" if sign > 0 else
+                "right", va="center")  # fmt: skip
+    ends = np.outer(to, (-1.5, 1.5))
+    ax.plot(*ends, color=sheet.INK, lw=0.9, ls="--")
+    ax.plot([0.0, 0.0], [0.0, 1.5], color="0.6", lw=0.8)
+    ax.text(0.25, 1.05, "α", fontsize=11)
+    ax.annotate("", (1.0, -1.25), (-1.0, -1.25), arrowprops={"arrowstyle": "<->"})
+    ax.text(0.0, -1.3, "D_w", fontsize=10, ha="center", va="top")
+    arrow(ax, (-3.1, 0.9), (-2.1, 0.9), "F_a 3500 N")
+    arrow(ax, (2.6, -0.3), (2.6, -1.2), "F_r 1200 N")
+    ax.plot([-3.0, 3.0], [-2.2, -2.2], color="0.6", lw=0.8, ls="-.")
+    ax.annotate("", (-2.6, 0.0), (-2.6, -2.2), arrowprops={"arrowstyle": "<->"})
+    ax.text(-2.5, -1.4, "d_m/2", fontsize=10)
+    ax.set(xlim=(-3.6, 3.4), ylim=(-2.4, 1.8))

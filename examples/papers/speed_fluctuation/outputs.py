@@ -14,19 +14,23 @@ import numpy as np
 from flexcage import register
 from flexcage.results import metrics
 from flexcage.results.reductions import main_line
+from flexcage.results.statistics import Windows, element_passes
 
 KEPT = 1e-3  # s, between the paper's own samples (Table 4: D3PLOT, D3THDT)
 TURN = 30e-3  # s, of the ring at 2000 rpm
 HARMONICS = 6  # of a ball's turn about the bearing, by which its force may follow its place
 MINUTE = 60.0
 RING_RPM = 2000.0 * pi / 30.0  # rad/s
+APART = 0.1  # of their mean, by which halves of a record are not the same
 UNITS = {
+    "drifts": "",  # 1 where the cage's distance from the axis differs in the record's halves
     "speed_whole": "rpm",  # of the cage, mean over the whole record, start included
     "speed": "rpm",  # the same, settled
     "swing": "%",  # half the range of the cage's speed over its mean, at the paper's samples
     "swing_all": "%",  # the same of all samples
     "swing_whole": "%",  # at the paper's samples, but for the first, from the start on
     "follows": "%",  # share of the cage speed's variance that is a sine of the ring's frequency
+    "main_frequency": "Hz",  # of the strongest line of the cage's speed
     "gain": "%",  # amplitude of that sine over the mean speed
     "ball_gain": "%",  # the same of the balls' mean orbital speed
     "kinematics": "%",  # largest error of the five quantities of Table 5
@@ -72,17 +76,20 @@ def evaluate(run) -> Mapping[str, float]:
     left, by = rest_of_place(force, psi)
     radius = 0.5 * case.bearing.pitch_diameter
     table_5 = kinematics(ds, case.bearing, float(omega.mean()))
+    away = metrics.whirl_radius(ds, about="axis")
     return {
+        "drifts": drifts(away, element_passes(ds, run.numbers)),
         "speed_whole": float(from_start.mean()),
         "speed": float(omega.mean()),
         "swing": half_range(omega[::every]),
         "swing_all": half_range(omega),
         "swing_whole": half_range(from_start[every::every]),
         "follows": share,
+        "main_frequency": main_line(omega, float(np.median(np.diff(time))))[0],
         "gain": amplitude / float(omega.mean()),
         "ball_gain": wave_in(balls, time, period)[0] / float(balls.mean()),
         **table_5,
-        "distance": float(metrics.whirl_radius(ds, about="axis").max()),
+        "distance": float(away.max()),
         "distance_whole": float(metrics.whirl_radius(whole, about="axis").max()),
         "stray": stray(orbit, float(np.median(np.diff(time)))),
         "one_force": float(pockets.max(axis=0).mean()),
@@ -98,6 +105,13 @@ def evaluate(run) -> Mapping[str, float]:
         "tilt": float(metrics.tilt(ds).sel(component="total").values.mean()),
         "slip": sliding(ds, case.bearing),
     }
+
+
+def drifts(x: np.ndarray, passes: Windows) -> float:
+    """1 if the halves of a record (n,) differ beyond chance and by more than ``APART``, else 0."""
+    one, other = (half.mean() for half in np.array_split(x, 2))
+    apart = abs(one - other) > APART * x.mean()
+    return float(apart and passes.mean(x).drift > 1.0)
 
 
 def orbital_speeds(ds) -> np.ndarray:

@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -141,17 +141,12 @@ def predictions(swings: dict[str, np.ndarray], printed) -> list[dict]:
 
 
 def main() -> None:
-    sys.path.insert(0, str(HERE.parent))
-    import tomllib
-
-    from paper_results import Joined
-
     from flexcage.study import MapResults
 
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("-o", "--out", type=Path, default=Path("runs/speed_fluctuation"))
-    joined = Joined([MapResults(parser.parse_args().out / "map_model")])
-    swings = {c: 100.0 * joined.means("swing", c) for c in (*SHOWN, *AHEAD)}
+    found = MapResults(parser.parse_args().out / "map_model")
+    swings = {c: 100.0 * found.means("swing", c) for c in (*SHOWN, *AHEAD)}
     printed = tomllib.loads((HERE / "printed.toml").read_text("utf-8"))
     text = json.dumps(predictions(swings, printed), indent=1)
     (HERE / "predictions.json").write_text(text + "\n", encoding="utf-8")

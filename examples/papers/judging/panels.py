@@ -1,0 +1,62 @@
+"""Sheets of panels as papers lay out their figures: rows, some on one scale, orbits square."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from matplotlib.axes import Axes
+
+from flexcage.render import sheet
+
+WIDE, HIGH, SQUARE, LEFT, TOP, GAP_X, GAP_Y = 440, 220, 230, 90, 110, 85, 90  # px, of panels
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One panel: its title, axis names, what draws it, and with which panels it shares a scale."""
+
+    title: str
+    below: str
+    unit: str
+    draw: Callable[[Axes], None]
+    scale: str = ""
+    square: bool = False
+
+
+def sheet_of(path: Path, title: str, rows: Sequence[Sequence[Panel]]) -> str:
+    """Rows of panels, those of one scale on it; the file's name."""
+    sides = [SQUARE if row[0].square else WIDE for row in rows]
+    highs = [SQUARE if row[0].square else HIGH for row in rows]
+    wide = max(len(row) * (side + GAP_X) for row, side in zip(rows, sides))
+    groups: dict[str, list[Axes]] = {}
+    with sheet.style():
+        figure = sheet.new_figure(LEFT + wide, TOP + sum(high + GAP_Y for high in highs))
+        sheet.heading(figure, title, "")
+        top = TOP
+        for row, side, high in zip(rows, sides, highs):
+            for k, panel in enumerate(row):
+                ax = sheet.axes_at(figure, (LEFT + k * (side + GAP_X), top, side, high))
+                panel.draw(ax)
+                ax.set_title(panel.title, loc="left", fontsize=10)
+                ax.set(xlabel=panel.below, ylabel=panel.unit)
+                groups.setdefault(panel.scale or str(id(ax)), []).append(ax)
+            top += high + GAP_Y
+        for axes in groups.values():
+            same_scale(axes)
+        sheet.save(figure, path)
+    return path.name
+
+
+def same_scale(axes: Sequence[Axes]) -> None:
+    """Give axes the limits that all of them need."""
+    low, high = zip(*(ax.get_ylim() for ax in axes))
+    for ax in axes:
+        ax.set_ylim(min(low), max(high))
+
+
+def arrow(ax: Axes, start, end, text: str, *, colour: str = sheet.INK) -> None:
+    """An arrow with its symbol at its beginning."""
+    ax.annotate("", end, start, arrowprops={"arrowstyle": "->", "color": colour, "lw": 1.4})
+    ax.text(*start, text, color=colour, fontsize=10, ha="center", va="bottom")
