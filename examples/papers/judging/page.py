@@ -149,7 +149,8 @@ def _figure(figure: Figure, by_claim: dict[str, list[Found]]) -> str:
     verdicts = [f"{found.part}: {found.said}" for key in figure.claims for found in by_claim[key]]
     lines = [f"### {figure.title}", wrapped(f"*The paper:* {figure.says}")]
     lines += [f"![{figure.title}]({figure.picture})"] if figure.picture else []
-    lines += [wrapped(f"**{'; '.join(verdicts)}.** {figure.mechanism}")]
+    found = f"**{'; '.join(verdicts)}.** " if verdicts else ""
+    lines += [wrapped(found + figure.mechanism)]
     return "\n\n".join(lines)
 
 
