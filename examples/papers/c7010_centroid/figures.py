@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -64,96 +64,110 @@ def along(ax: Axes, time: np.ndarray, x: np.ndarray, name: str, wide: float) -> 
     ax.set_title(name, loc="left", fontsize=10)
 
 
-def pair(
-    path: Path, heading: tuple[str, str], radial: Mapping[str, np.ndarray],
-    axials: Mapping[str, Axial], reach: float, wide: float,
-) -> str:  # fmt: skip
-    """Radial tracks and an axial motion, side by side as the paper has them; the file's name."""
+Row = tuple[Mapping[str, np.ndarray], str, Axial]  # radial tracks, and an axial motion with a name
+
+
+def rows_of(
+    path: Path, heading: tuple[str, str], rows: Sequence[Row], reach: float, wide: float
+) -> str:
+    """Rows of radial tracks and an axial motion, as the paper has them, on one scale; the file's
+    name."""
+    left, gap, most = 90, 90, max(len(radial) for radial, _, _ in rows)
     with sheet.style():
-        left, gap = 90, 90
-        figure = sheet.new_figure(left + (len(radial) + 1) * (SIDE + gap) + 170, TOP + SIDE + 80)
+        figure = sheet.new_figure(
+            left + (most + 1) * (SIDE + gap) + 170, TOP + len(rows) * (SIDE + 80)
+        )
         sheet.heading(figure, *heading)
-        for k, (name, yz) in enumerate(radial.items()):
-            across(
-                sheet.axes_at(figure, (left + k * (SIDE + gap), TOP, SIDE, SIDE)), yz, name, reach
-            )
-        for name, (time, x) in axials.items():
-            place = (left + len(radial) * (SIDE + gap) + 10, TOP, SIDE + 150, SIDE)
+        for i, (radial, name, (time, x)) in enumerate(rows):
+            top = TOP + i * (SIDE + 80)
+            for k, (word, yz) in enumerate(radial.items()):
+                place = (left + k * (SIDE + gap), top, SIDE, SIDE)
+                across(sheet.axes_at(figure, place), yz, word, reach)
+            place = (left + most * (SIDE + gap) + 10, top, SIDE + 150, SIDE)
             along(sheet.axes_at(figure, place), time, x, name, wide)
         sheet.save(figure, path)
     return path.name
 
 
 def motion(computed, folder: Path) -> dict[str, str]:
-    """Figures 6 and 7 of the test's cage, and 8 of the simulation's, each pair on one scale."""
+    """Figures 6 and 7 of the test's cage, and 8 of the simulation's."""
     test = Track(computed.readings[CAGE].run(AXIS))
-    reach = reach_of(test.shown[:, :2], test.solved)
-    wide = 0.6 * float(max(np.ptp(test.shown[:, 2]), np.ptp(test.axial)))
-    under = "one start of the test's cage, 10,000 rpm"
-    found = {
-        "6": pair(folder / "figure_6.png", ("Figure 6: as measured", under),
-                  {"(a) radial readings": test.shown[:, :2]},
-                  {"(b) reading of one axial laser": (test.time, test.shown[:, 2])}, reach, wide),
-        "7": pair(folder / "figure_7.png",
-                  ("Figure 7: the centre, as the equations solve it", under),
-                  {"(a) radial": test.solved}, {"(b) axial": (test.time, test.axial)}, reach, wide),
-    }  # fmt: skip
+    found = {"6": rows_of(
+        folder / "figure_6_7.png",
+        ("Figures 6 and 7: as measured, and the centre as the equations solve it",
+         "one start of the test's cage, 10,000 rpm"),
+        (({"6a radial readings": test.shown[:, :2]}, "6b reading of one axial laser",
+          (test.time, test.shown[:, 2])),
+         ({"7a radial": test.solved}, "7b axial", (test.time, test.axial))),
+        reach_of(test.shown[:, :2], test.solved),
+        0.6 * float(max(np.ptp(test.shown[:, 2]), np.ptp(test.axial))),
+    )}  # fmt: skip
     own = Track(computed.readings[SIMULATED].run(AXIS))
-    found["8"] = pair(
+    found["8"] = rows_of(
         folder / "figure_8.png",
         ("Figure 8: as simulated", "one start of the paper's own model as printed, 10,000 rpm"),
-        {"(a) origin, in the lasers' plane": own.origin, "(b) centre": own.centre[:, 1:]},
-        {"(c) axial": (own.time, own.centre[:, 0])}, reach_of(own.origin, own.centre[:, 1:]),
-        0.6 * max(float(np.ptp(own.centre[:, 0])), 0.01),
+        (({"(a) origin, in the lasers' plane": own.origin, "(b) centre": own.centre[:, 1:]},
+          "(c) axial", (own.time, own.centre[:, 0])),),
+        reach_of(own.origin, own.centre[:, 1:]), 0.6 * max(float(np.ptp(own.centre[:, 0])), 0.01),
     )  # fmt: skip
     return found
 
 
-def in_space(computed, folder: Path, name: str, title: str, column: str) -> str:
-    """Figures 9 and 10: the centre in space, one panel a speed, one scale."""
-    reading = computed.readings[column]
-    tracks = {s: Track(reading.run(s)) for s in SPEEDS}
-    yz = {s: t.solved if column == CAGE else t.centre[:, 1:] for s, t in tracks.items()}
+def in_space(computed, folder: Path) -> str:
+    """Figures 9 and 10: the centre in space, one panel a speed, on one scale."""
+    columns = {CAGE: "9 measured", SIMULATED: "10 simulated"}
+    tracks = {(c, s): Track(computed.readings[c].run(s)) for c in columns for s in SPEEDS}
+    yz = {(c, s): t.solved if c == CAGE else t.centre[:, 1:] for (c, s), t in tracks.items()}
     reach = reach_of(*yz.values())
     with sheet.style():
-        figure = sheet.new_figure(4 * (SIDE + 20) + 60, TOP + SIDE + 60)
-        sheet.heading(figure, title, f"one start of the {column}; mm, one scale")
-        for k, speed in enumerate(SPEEDS):
-            place = (30 + k * (SIDE + 20), TOP, SIDE, SIDE)
+        figure = sheet.new_figure(4 * (SIDE + 20) + 60, TOP + 2 * (SIDE + 40))
+        sheet.heading(figure, "Figures 9 and 10: the centre in space", "one start each; mm")
+        for k, key in enumerate(tracks):
+            row, column = divmod(k, len(SPEEDS))
+            place = (30 + column * (SIDE + 20), TOP + row * (SIDE + 40), SIDE, SIDE)
             ax = sheet.axes_at(figure, place, projection="3d")
-            x = tracks[speed].centre[:, 0] - tracks[speed].centre[:, 0].mean()
-            ax.plot(x, yz[speed][:, 1], -yz[speed][:, 0], color=sheet.BLUE, lw=0.5)
+            x = tracks[key].centre[:, 0] - tracks[key].centre[:, 0].mean()
+            ax.plot(x, yz[key][:, 1], -yz[key][:, 0], color=sheet.BLUE, lw=0.5)
             ax.set(xlim=(-reach, reach), ylim=(-reach, reach), zlim=(-reach, reach))
-            ax.set_title(f"({'abcd'[k]}) {int(speed):,} rpm", fontsize=10)
+            title = f"{columns[key[0]]} ({'abcd'[column]}): {int(key[1]):,} rpm"
+            ax.set_title(title, fontsize=10)
             for axis, word in ((ax.xaxis, "x / mm"), (ax.yaxis, "z / mm"), (ax.zaxis, "-y / mm")):
                 axis.set_tick_params(labelsize=6, pad=-2)
                 axis.set_ticks((-reach, 0.0, reach))
                 axis.set_label_text(word, fontsize=8)
-        sheet.save(figure, folder / f"{name}.png")
-    return f"{name}.png"
+        sheet.save(figure, folder / "figure_9_10.png")
+    return "figure_9_10.png"
 
 
-def over_speed(
-    folder: Path, name: str, title: str, unit: str, panels: Mapping[str, Callable[[Axes], None]],
-    most: float | None = None, least: float = 0.0,
-) -> str:  # fmt: skip
-    """Panels over the ring's speed, on one scale: sample, readings, printed numbers."""
+Panel = tuple[str, str, tuple[float | None, float | None], Callable[[Axes], None]]
+
+
+def over_speed(folder: Path, name: str, title: str, panels: Sequence[Panel]) -> str:
+    """Panels (title, axis, limits, drawing) over the ring's speed, two a row, each row on one
+    scale: sample, readings, printed numbers."""
+    wide, high, left, gap = 460, 280, 90, 100
+    columns = min(len(panels), 2)
     with sheet.style():
-        wide, left, gap = 460, 90, 100
-        figure = sheet.new_figure(left + len(panels) * (wide + gap), TOP + 300 + 80)
+        figure = sheet.new_figure(
+            left + columns * (wide + gap), TOP + -(-len(panels) // 2) * (high + 80)
+        )
         sheet.heading(figure, title, "bands: middle 80 % of settings and median; marks: starts of "
                       "readings, least to largest")  # fmt: skip
-        axes = []
-        for k, (word, draw) in enumerate(panels.items()):
-            ax = sheet.axes_at(figure, (left + k * (wide + gap), TOP, wide, 300))
-            draw(ax)
-            ax.set(xlabel="inner ring / rpm", ylabel=unit, xlim=(3600, 11400))
-            ax.set_title(word, loc="left", fontsize=10)
-            ax.legend(loc="best", fontsize=8, frameon=False)
-            axes.append(ax)
-        low, high = zip(*(ax.get_ylim() for ax in axes))
-        for ax in axes:
-            ax.set_ylim(min(*low, least), max(high) if most is None else most)
+        for k in range(0, len(panels), 2):
+            axes = []
+            for j, (word, unit, _, draw) in enumerate(panels[k : k + 2]):
+                place = (left + j * (wide + gap), TOP + k // 2 * (high + 80), wide, high)
+                ax = sheet.axes_at(figure, place)
+                draw(ax)
+                ax.set(xlabel="inner ring / rpm", ylabel=unit, xlim=(3600, 11400))
+                ax.set_title(word, loc="left", fontsize=10)
+                ax.legend(loc="best", fontsize=8, frameon=False)
+                axes.append(ax)
+            low, high_ = zip(*(ax.get_ylim() for ax in axes))
+            ends = panels[k][2]
+            for ax in axes:
+                ax.set_ylim(min(low) if ends[0] is None else ends[0],
+                            max(high_) if ends[1] is None else ends[1])  # fmt: skip
         sheet.save(figure, folder / f"{name}.png")
     return f"{name}.png"
 
@@ -179,31 +193,29 @@ def panel(
 
 def draw(computed, folder: Path) -> dict[str, str]:
     """All pictures by what they repeat."""
-    c, table = computed, PRINTED
-    two = (CAGE, RUN_UP)
+    c, table, two, own = computed, PRINTED, (CAGE, RUN_UP), (SIMULATED,)
+    beyond = {
+        s: 100.0 * (table["table_3"]["simulated"][s] / table["table_3"]["theory"][s] - 1.0)
+        for s in table["table_3"]["theory"]
+    }
     found = {"sketch": draw_sketch(folder / "sketch.png"), **motion(c, folder)}
-    found["9"] = in_space(c, folder, "figure_9", "Figure 9: the centre in space, measured", CAGE)
-    found["10"] = in_space(c, folder, "figure_10", "Figure 10: the same, simulated", SIMULATED)
-    found["11"] = over_speed(folder, "figure_11", "Figure 11: whirl ratio over speed", "ratio", {
-        "test: by lasers and equations": panel(c, TEST, "solved_ratio", two, 1.0),
-        "simulation: of the centre": panel(c, MODEL, "ratio", (SIMULATED,), 1.0),
-    })  # fmt: skip
-    found["t3"] = over_speed(
-        folder, "table_3", "Table 3: cage speed beyond equation 18", "%",
-        {"simulation": panel(c, MODEL, "beyond_theory", (SIMULATED,), 100.0, {
-            s: 100.0 * (table["table_3"]["simulated"][s] / table["table_3"]["theory"][s] - 1.0)
-            for s in table["table_3"]["theory"]})}, least=-1.5,
-    )  # fmt: skip
-    found["t45"] = over_speed(
-        folder, "tables_4_5", "Tables 4 and 5: difference of whirl radii", "mm", {
-            "Table 4, solved": panel(c, TEST, "solved", two, MM, table["table_4"]["solved"]),
-            "Table 5, centroid": panel(c, MODEL, "difference", (SIMULATED,), MM,
-                                       table["table_5"]["centroid"]),
-        })  # fmt: skip
-    found["errors"] = over_speed(
-        folder, "errors", "Tables 4 and 5: deflection error", "%", {
-            "Table 4": panel(c, TEST, "error", two, 100.0, table["table_4"]["error"]),
-            "Table 5": panel(c, MODEL, "origin_error", (SIMULATED,), 100.0,
-                             table["table_5"]["error"]),
-        }, most=40.0, least=-10.0)  # fmt: skip
+    found["9"] = in_space(c, folder)
+    found["11"] = over_speed(folder, "figure_11", "Figure 11: whirl ratio over speed", (
+        ("test: by lasers and equations", "ratio", (0.0, None),
+         panel(c, TEST, "solved_ratio", two, 1.0)),
+        ("simulation: of the centre", "ratio", (0.0, None), panel(c, MODEL, "ratio", own, 1.0)),
+    ))  # fmt: skip
+    found["t3"] = over_speed(folder, "table_3", "Table 3: cage speed beyond equation 18", (
+        ("simulation", "%", (None, None), panel(c, MODEL, "beyond_theory", own, 100.0, beyond)),
+    ))  # fmt: skip
+    found["t45"] = over_speed(folder, "tables_4_5", "Tables 4 and 5: differences of whirl radii", (
+        ("Table 4, solved", "difference / mm", (0.0, None),
+         panel(c, TEST, "solved", two, MM, table["table_4"]["solved"])),
+        ("Table 5, centroid", "difference / mm", (0.0, None),
+         panel(c, MODEL, "difference", own, MM, table["table_5"]["centroid"])),
+        ("Table 4, deflection error", "%", (-20.0, 40.0),
+         panel(c, TEST, "error", two, 100.0, table["table_4"]["error"])),
+        ("Table 5, deflection error", "%", (-20.0, 40.0),
+         panel(c, MODEL, "origin_error", own, 100.0, table["table_5"]["error"])),
+    ))  # fmt: skip
     return found
