@@ -25,56 +25,59 @@ SCATTER = {
 }  # fmt: skip
 
 
-def numbers(output: str, printed: dict[str, float], words: str = "") -> dict[str, Within]:
+def numbers(output: str, printed: dict[str, float], words: str) -> dict[str, Within]:
     """A printed number at each speed, within ``NEAR`` of it."""
     return {
-        f"{printed[s] * 1e3:.2g} mm at {int(s):,} rpm{words}": Within(
+        f"at {int(s):,} rpm, {words}": Within(
             output, (s,), (1.0 - NEAR) * printed[s], (1.0 + NEAR) * printed[s]
         )
         for s in printed
     }
 
 
-def deflection(apart: str, of: str, error: str) -> dict[str, Below | Within | Turn]:
+def deflection(who: str, apart: str, of: str, error: str) -> dict[str, Below | Within | Turn]:
     """What both tables say of the deflection error."""
     return {
-        "larger": Below(of, apart, SPEEDS),
-        "slightly": Within(error, SPEEDS, high=SLIGHT),
-        "least at 10,000": Turn(error, SPEEDS, highest=False, at=RPM),
+        f"{who}: larger": Below(of, apart, SPEEDS),
+        f"{who}: slightly": Within(error, SPEEDS, high=SLIGHT),
+        f"{who}: least at 10,000": Turn(error, SPEEDS, highest=False, at=RPM),
     }
 
 
-def steadier(radius: str, ratio: str) -> dict[str, Trend | Within]:
+def steadier(who: str, radius: str, ratio: str) -> dict[str, Trend | Within]:
     """What the figures of the centre in space say, up to 10,000 rpm."""
     return {
-        "radius grows": Trend(radius, TO_10000),
-        "tends to a circle": Trend(ratio, TO_10000, rising=False),
-        "a circle at 10,000": Within(ratio, ("10000",), high=ROUND),
+        f"{who}: radius grows": Trend(radius, TO_10000),
+        f"{who}: tends to a circle": Trend(ratio, TO_10000, rising=False),
+        f"{who}: a circle at 10,000": Within(ratio, ("10000",), high=ROUND),
     }
 
 
 CLAIMS = (
     Claim(
         "003-1", "Measured: deflection makes differences slightly larger; the error is least at "
-        "10,000 rpm", "Table 4", deflection("raw", "solved", "error"),
+        "10,000 rpm", "Table 4", deflection("measured", "raw", "solved", "error"),
     ),
     Claim(
         "003-1b", "Simulated: the same", "Table 5",
-        deflection("origin", "difference", "origin_error"),
+        deflection("simulated", "origin", "difference", "origin_error"),
     ),
     Claim(
         "003-2", "Measured: the whirl ratio falls to 10,000 rpm, then rises", "Figure 11",
-        {"turns": Turn("solved_ratio", SPEEDS, highest=False, at=RPM)}, change=0.4,
+        {"measured: turns": Turn("solved_ratio", SPEEDS, highest=False, at=RPM)}, change=0.4,
     ),
     Claim(
         "003-2b", "Simulated: the same", "Figure 11",
-        {"turns": Turn("ratio", SPEEDS, highest=False, at=RPM)}, change=0.4,
+        {"simulated: turns": Turn("ratio", SPEEDS, highest=False, at=RPM)}, change=0.4,
     ),
     Claim(
         "003-3", "Measured: up to 10,000 rpm the whirl radius grows and the orbit tends to a "
-        "circle", "Figure 9", steadier("solved_radius", "solved_ratio"),
+        "circle", "Figure 9", steadier("measured", "solved_radius", "solved_ratio"),
     ),
-    Claim("003-3b", "Simulated: the same", "Figure 10", steadier("mean_radius", "ratio")),
+    Claim(
+        "003-3b", "Simulated: the same", "Figure 10",
+        steadier("simulated", "mean_radius", "ratio"),
+    ),
     Claim(
         "003-4", "At 10,000 rpm an axial reading is periodic at the cage's frequency, the centre's "
         "motion is not", "Figure 6",
@@ -90,21 +93,21 @@ CLAIMS = (
     ),
     Claim(
         "003-6", "Measured: whirl radii differ by 0.23 mm at either speed", "Table 4",
-        numbers("solved", MEASURED),
+        numbers("solved", MEASURED, "solved"),
     ),
     Claim(
         "003-7", "Simulated: whirl radii differ by as much as printed (settled, or from the "
         "start on)", "Table 5",
-        numbers("difference", SIMULATED) | numbers("whole", SIMULATED, ", with the start"),
+        numbers("difference", SIMULATED, "settled") | numbers("whole", SIMULATED, "with the start"),
     ),
     Claim(
         "003-8", "The deflection error goes with the whirl ratio, as measured",
-        "abstract, section 4.2", {"together": Together("error", "solved_ratio", SPEEDS)},
+        "abstract, section 4.2", {"measured: together": Together("error", "solved_ratio", SPEEDS)},
         change=0.4,
     ),
     Claim(
         "003-8b", "and as simulated", "Figure 11, Table 5",
-        {"together": Together("origin_error", "ratio", SPEEDS)}, change=0.4,
+        {"simulated: together": Together("origin_error", "ratio", SPEEDS)}, change=0.4,
     ),
 )  # fmt: skip
 SIMULATIONS = ("003-1b", "003-2b", "003-3b", "003-5", "003-7", "003-8b")

@@ -18,7 +18,7 @@ from flexcage.core.units import parse
 from flexcage.results import instrument, metrics
 from flexcage.results.instrument import LaserSetup
 from flexcage.results.rim import Rim
-from flexcage.results.slip import cage_speed
+from flexcage.results.slip import at_own_angles, cage_speed
 from flexcage.results.statistics import element_passes
 
 #: Axial place of the radial sensors [m] from the cage's middle. The paper does not give it: they
@@ -36,7 +36,8 @@ UNITS = {
     "drifts": "",  # 1 where the whirl of the record's halves differs, clearly and by 5 % or more
     "speed": "rpm",  # of the cage, mean
     "beyond_theory": "%",  # share by which it exceeds equation 18: 15 deg at both races
-    "by_angles": "%",  # the same of pure rolling at the run's own contact angles
+    "by_angles": "%",  # the same of rolling by the mean of both races' own contact angles
+    "by_outer": "%",  # and of balls that roll on the outer race and spin on the inner
     "mean_radius": "mm",  # of the cage's centre about the axis
     "difference": "mm",  # largest less least of that radius
     "whole": "mm",  # the same from the start on, where the cage is centred
@@ -72,6 +73,7 @@ def evaluate(run) -> Mapping[str, float]:
         "speed": speed.mean,
         "beyond_theory": speed.mean / speed.nominal - 1.0,
         "by_angles": speed.epicyclic / speed.nominal - 1.0,
+        "by_outer": by_outer(run, ds) / speed.nominal - 1.0,
         "drifts": drifts(ds, run, radius),
         "mean_radius": float(radius.mean()),
         "difference": apart,
@@ -84,6 +86,15 @@ def evaluate(run) -> Mapping[str, float]:
         "turns": metrics.whirl(ds, about="axis").speed_ratio,
         **by_lasers(run.case, ds, abs(speed.mean) / (2.0 * pi)),
     }
+
+
+def by_outer(run, ds) -> float:
+    """Cage speed [rad/s] of outer raceway control at the run's own mean contact angles (Harris and
+    Kotzalas, Advanced Concepts of Bearing Technology): w (1 - g cos a_i)/(1 + cos(a_i - a_o))."""
+    inner, outer = at_own_angles(ds, run.numbers).angles
+    ratio = run.case.bearing.ball_diameter / run.case.bearing.pitch_diameter
+    share = (1.0 - ratio * np.cos(inner)) / (1.0 + np.cos(inner - outer))
+    return abs(float(ds["inner_speed"].mean())) * share
 
 
 def drifts(ds, run, radius: np.ndarray) -> float:

@@ -87,6 +87,10 @@ def sweep(computed, folder: Path, name: str, title: str, panels: Sequence[Panel]
             if k == 0:
                 ax.legend(loc="best", fontsize=7, frameon=False)
             drawn.setdefault(output, []).append(ax)
+        if name == "figure_5":
+            row, column = divmod(len(panels), columns)
+            place = (LEFT + column * (WIDE + GAP), TOP + row * (HIGH + 90), WIDE, HIGH)
+            orbits(sheet.axes_at(figure, place), computed)
         for axes in drawn.values():
             top = max(ax.get_ylim()[1] for ax in axes)
             for ax in axes:
@@ -104,23 +108,18 @@ def printed(ax: Axes, output: str, axis: Axis) -> None:
                 label="printed (Table 3)")  # fmt: skip
 
 
-def orbits(computed, folder: Path) -> str:
-    """Figure 5d: the cage's centre at three radii, overlaid on one scale."""
+def orbits(ax: Axes, computed) -> None:
+    """Figure 5d: the cage's centre at three radii, one start each, overlaid."""
     reading = computed.readings[RIG]
-    with sheet.style():
-        figure = sheet.new_figure(640, 560)
-        sheet.heading(figure, "Figure 5d: orbit of the cage's centre", f"one start, {RIG}")
-        ax = sheet.axes_at(figure, (100, TOP, 380, 380))
-        for colour, (condition, name) in zip(
-            COLOURS, (("Rp 3.49", "3.49 mm"), (BASE, "3.46 mm"), ("Rp 3.43", "3.43 mm"))
-        ):
-            run = reading.run(condition)
-            yz = metrics.orbit(metrics.settled(run.dataset, run.case.output.settle)) * 1e6
-            ax.plot(yz[:, 1], -yz[:, 0], lw=0.8, color=colour, label=name)
-        ax.set(aspect="equal", xlabel="z / um", ylabel="-y / um")
-        ax.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0), fontsize=8, frameon=False)
-        sheet.save(figure, folder / "figure_5d.png")
-    return "figure_5d.png"
+    for colour, (condition, name) in zip(
+        COLOURS, (("Rp 3.49", "3.49 mm"), (BASE, "3.46 mm"), ("Rp 3.43", "3.43 mm"))
+    ):
+        run = reading.run(condition)
+        yz = metrics.orbit(metrics.settled(run.dataset, run.case.output.settle)) * 1e6
+        ax.plot(yz[:, 1], -yz[:, 0], lw=0.8, color=colour, label=name)
+    ax.set(aspect="equal", xlabel="z / um", ylabel="-y / um")
+    ax.set_title("(d) orbit of the cage's centre", loc="left", fontsize=10)
+    ax.legend(loc="best", fontsize=7, frameon=False)
 
 
 def loaded_joint(run: Run, play: float) -> JointResult:
@@ -151,8 +150,8 @@ def section(ax: Axes, result: JointResult, most: float):
     return image
 
 
-def joints(computed, folder: Path) -> dict[str, str]:
-    """Figure 4b, and 10a to c: stress in the joint, and over its fit."""
+def joints(computed, folder: Path) -> str:
+    """Figures 4b and 10a to c: stress in the joint, and over its fit; the file's name."""
     run = computed.readings[FLEXIBLE].run(BASE)
     found = {name: loaded_joint(run, play) for name, play in PLAYS.items()}
     top = {k: r.instants["again"].equivalent for k, r in found.items()}
@@ -161,7 +160,7 @@ def joints(computed, folder: Path) -> dict[str, str]:
     with sheet.style():
         figure = sheet.new_figure(1500, 560)
         under = "equivalent stress, linear elastic: (a, b) section, (c) largest by place"
-        sheet.heading(figure, "Figure 10: stress of the rivet by its fit", under)
+        sheet.heading(figure, "Figures 4 and 10: stress of the rivet by its fit", under)
         for k, name in enumerate(("tight", "loose")):
             ax = sheet.axes_at(figure, (80 + k * 440, TOP, 370, 360))
             image = section(ax, found[name], most)
@@ -170,15 +169,7 @@ def joints(computed, folder: Path) -> dict[str, str]:
         bar.set_label("MPa")
         over_fits(sheet.axes_at(figure, (1060, TOP, 380, 360)))
         sheet.save(figure, folder / "figure_10.png")
-        figure = sheet.new_figure(660, 560)
-        sheet.heading(figure, "Figure 4b: the joint under its largest load",
-                      "equivalent stress in the section, play of 3 um")  # fmt: skip
-        ax = sheet.axes_at(figure, (80, TOP, 400, 380))
-        image = section(ax, found["loose"], most)
-        bar = figure.colorbar(image, cax=sheet.axes_at(figure, (510, TOP, 16, 380)))
-        bar.set_label("MPa")
-        sheet.save(figure, folder / "figure_4.png")
-    return {"4": "figure_4.png", "10": "figure_10.png"}
+    return "figure_10.png"
 
 
 def over_fits(ax: Axes) -> None:
@@ -192,36 +183,39 @@ def over_fits(ax: Axes) -> None:
     ax.legend(loc="best", fontsize=8, frameon=False)
 
 
-def both_cages(computed, folder: Path, name: str, title: str, output: str, sample: str,
-               factor: float, unit: str) -> str:  # fmt: skip
-    """An output of both cages of Table 4: settings, starts of readings, printed numbers."""
+def both_cages(computed, folder: Path) -> str:
+    """Table 4 and Figure 12: slip, and stress of rivets, of both cages; the file's name."""
     with sheet.style():
-        figure = sheet.new_figure(760, 500)
-        sheet.heading(figure, title, "boxes: middle 80 % of settings and median")
-        ax = sheet.axes_at(figure, (90, TOP, 400, 300))
-        there = computed.samples.get(sample)
-        for cage, at in CAGES.items() if there is not None else ():
-            values = there.means[output, cage] * factor
-            low, mid, high = np.nanpercentile(values, (10.0, 50.0, 90.0))
-            ax.bar(at, high - low, 0.4, low, color=sheet.BLUE, alpha=0.2)
-            ax.plot([at - 0.2, at + 0.2], [mid, mid], color=sheet.BLUE, lw=1.6,
-                    label="settings that the text allows" if at == 0.0 else None)  # fmt: skip
-        for k, (column, (colour, marker)) in enumerate(READINGS.items()):
-            reading = computed.readings.get(column)
-            if reading is None or output == ROOT and column != FLEXIBLE:
-                continue
+        figure = sheet.new_figure(1240, 500)
+        sheet.heading(figure, "Table 4 and Figure 12: both cages at 9000 rpm", "boxes: middle 80 % "
+                      "of settings and median; marks: starts of readings")  # fmt: skip
+        for k, (output, sample) in enumerate(((SLIP, CAGE), (ROOT, RIVET))):
+            ax = sheet.axes_at(figure, (90 + k * 600, TOP, 330, 300))
+            of_both(ax, computed, output, sample)
+            ax.set(xticks=(0.0, 1.0), xlim=(-0.5, 1.6), ylabel=SHOWN[output][0])
+            ax.set_xticklabels(("modified", "original"))
+            ax.set_ylim(0.0, None)
+            ax.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=7, frameon=False)
+        sheet.save(figure, folder / "table_4.png")
+    return "table_4.png"
+
+
+def of_both(ax: Axes, computed, output: str, sample: str) -> None:
+    """An output of both cages: settings, starts of readings, printed slips."""
+    factor, there = SHOWN[output][1], computed.samples.get(sample)
+    for cage, at in CAGES.items() if there is not None else ():
+        low, mid, high = np.nanpercentile(there.means[output, cage] * factor, (10.0, 50.0, 90.0))
+        ax.bar(at, high - low, 0.4, low, color=sheet.BLUE, alpha=0.2)
+        ax.plot([at - 0.2, at + 0.2], [mid, mid], color=sheet.BLUE, lw=1.6,
+                label="settings that the text allows" if at == 0.0 else None)  # fmt: skip
+    for k, (column, (colour, marker)) in enumerate(READINGS.items()):
+        reading = computed.readings.get(column)
+        if reading is not None and (output != ROOT or column == FLEXIBLE):
             starts(ax, reading, output, CAGES, factor, colour=colour, label=column, marker=marker,
                    shift=0.28 + 0.06 * k)  # fmt: skip
-        if output == SLIP:
-            for source, marker in (("experimental", "X"), ("artificial", "P")):
-                ax.plot([-0.3, 0.7], list(PRINTED["table_4"][source].values()), marker, ms=8,
-                        ls="", color=sheet.INK, label=f"printed, {source}")  # fmt: skip
-        ax.set(xticks=(0.0, 1.0), xlim=(-0.5, 1.6), ylabel=unit)
-        ax.set_xticklabels(("modified", "original"))
-        ax.set_ylim(0.0, None)
-        ax.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0), fontsize=8, frameon=False)
-        sheet.save(figure, folder / f"{name}.png")
-    return f"{name}.png"
+    for source, marker in (("experimental", "X"), ("artificial", "P")) if output == SLIP else ():
+        ax.plot([-0.3, 0.7], list(PRINTED["table_4"][source].values()), marker, ms=8, ls="",
+                color=sheet.INK, label=f"printed, {source}")  # fmt: skip
 
 
 def surface(computed, folder: Path) -> str:
@@ -272,17 +266,14 @@ def draw(computed, folder: Path) -> dict[str, str]:
     thick = (SHEET, "sheet's thickness / mm")
     found = {"sketch": draw_sketch(folder / "sketch.png")}
     if FLEXIBLE in c.readings:
-        found |= joints(c, folder)
+        found["10"] = joints(c, folder)
     found["5"] = sweep(c, folder, "figure_5", "Figure 5: over the pocket radius", (
         ("(a) force", FORCE, *radius, CAGE), ("(b) rivets", ROOT, *radius, RIVET),
-        ("(c) slip", SLIP, *radius, CAGE), ("(c) tilt", TILT, *radius, CAGE)), 2)  # fmt: skip
-    found["5d"] = orbits(c, folder)
-    found["6"] = sweep(c, folder, "figure_6", "Figure 6: over the cage's width", (
-        ("(a) force", FORCE, *width, CAGE), ("(c) slip", SLIP, *width, CAGE),
-        ("(c) tilt", TILT, *width, CAGE)))  # fmt: skip
-    found["7"] = sweep(c, folder, "figure_7", "Figure 7: over the sheet's thickness", (
-        ("(a) force", FORCE, *thick, CAGE), ("(a) rivets", ROOT, *thick, RIVET),
-        ("(b) slip", SLIP, *thick, CAGE)))  # fmt: skip
+        ("(c) slip", SLIP, *radius, CAGE), ("(c) tilt", TILT, *radius, CAGE)))  # fmt: skip
+    found["6"] = sweep(c, folder, "figure_6_7", "Figures 6 and 7: over the cage's width and sheet", (
+        ("6a force", FORCE, *width, CAGE), ("6c slip", SLIP, *width, CAGE),
+        ("6c tilt", TILT, *width, CAGE), ("7a force", FORCE, *thick, CAGE),
+        ("7a rivets", ROOT, *thick, RIVET), ("7b slip", SLIP, *thick, CAGE)))  # fmt: skip
     races = ((INNER, "f_i", "ab"), (OUTER, "f_e", "cd"), (PLAY, "radial clearance / um", "ef"))
     found["9"] = sweep(c, folder, "figure_9", "Figure 9: over grooves and clearance", [
         (f"({letters[output != FORCE]}) {word}", output, axis, below, RACE)
@@ -290,8 +281,5 @@ def draw(computed, folder: Path) -> dict[str, str]:
         for output, word in ((FORCE, "force"), (SLIP, "slip"), (TILT, "tilt"))])  # fmt: skip
     if (c.out / "design").is_dir():
         found["8"] = surface(c, folder)
-    found["12"] = both_cages(c, folder, "figure_12", "Figure 12: which cage fails first", ROOT,
-                             RIVET, 1e-6, "nominal stress of a rivet / MPa")  # fmt: skip
-    found["t4"] = both_cages(c, folder, "table_4", "Table 4: slip of the cage at 9000 rpm", SLIP,
-                             CAGE, 100.0, "slip |S_c| / %")  # fmt: skip
+    found["t4"] = both_cages(c, folder)
     return found
