@@ -75,11 +75,11 @@ def rows_of(
     left, gap, most = 90, 90, max(len(radial) for radial, _, _ in rows)
     with sheet.style():
         figure = sheet.new_figure(
-            left + (most + 1) * (SIDE + gap) + 170, TOP + len(rows) * (SIDE + 80)
+            left + (most + 1) * (SIDE + gap) + 170, TOP + 20 + len(rows) * (SIDE + 100)
         )
         sheet.heading(figure, *heading)
         for i, (radial, name, (time, x)) in enumerate(rows):
-            top = TOP + i * (SIDE + 80)
+            top = TOP + 20 + i * (SIDE + 100)
             for k, (word, yz) in enumerate(radial.items()):
                 place = (left + k * (SIDE + gap), top, SIDE, SIDE)
                 across(sheet.axes_at(figure, place), yz, word, reach)
@@ -120,11 +120,11 @@ def in_space(computed, folder: Path) -> str:
     yz = {(c, s): t.solved if c == CAGE else t.centre[:, 1:] for (c, s), t in tracks.items()}
     reach = reach_of(*yz.values())
     with sheet.style():
-        figure = sheet.new_figure(4 * (SIDE + 20) + 60, TOP + 2 * (SIDE + 40))
+        figure = sheet.new_figure(4 * (SIDE + 20) + 60, TOP + 2 * (SIDE + 80))
         sheet.heading(figure, "Figures 9 and 10: the centre in space", "one start each; mm")
         for k, key in enumerate(tracks):
             row, column = divmod(k, len(SPEEDS))
-            place = (30 + column * (SIDE + 20), TOP + row * (SIDE + 40), SIDE, SIDE)
+            place = (30 + column * (SIDE + 20), TOP + row * (SIDE + 80), SIDE, SIDE)
             ax = sheet.axes_at(figure, place, projection="3d")
             x = tracks[key].centre[:, 0] - tracks[key].centre[:, 0].mean()
             ax.plot(x, yz[key][:, 1], -yz[key][:, 0], color=sheet.BLUE, lw=0.5)
@@ -149,14 +149,14 @@ def over_speed(folder: Path, name: str, title: str, panels: Sequence[Panel]) -> 
     columns = min(len(panels), 2)
     with sheet.style():
         figure = sheet.new_figure(
-            left + columns * (wide + gap), TOP + -(-len(panels) // 2) * (high + 80)
+            left + columns * (wide + gap), TOP + 10 + -(-len(panels) // 2) * (high + 100)
         )
         sheet.heading(figure, title, "bands: middle 80 % of settings and median; marks: starts of "
                       "readings, least to largest")  # fmt: skip
         for k in range(0, len(panels), 2):
             axes = []
             for j, (word, unit, _, draw) in enumerate(panels[k : k + 2]):
-                place = (left + j * (wide + gap), TOP + k // 2 * (high + 80), wide, high)
+                place = (left + j * (wide + gap), TOP + 10 + k // 2 * (high + 100), wide, high)
                 ax = sheet.axes_at(figure, place)
                 draw(ax)
                 ax.set(xlabel="inner ring / rpm", ylabel=unit, xlim=(3600, 11400))

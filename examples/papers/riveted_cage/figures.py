@@ -186,11 +186,11 @@ def over_fits(ax: Axes) -> None:
 def both_cages(computed, folder: Path) -> str:
     """Table 4 and Figure 12: slip, and stress of rivets, of both cages; the file's name."""
     with sheet.style():
-        figure = sheet.new_figure(1240, 500)
+        figure = sheet.new_figure(1420, 500)
         sheet.heading(figure, "Table 4 and Figure 12: both cages at 9000 rpm", "boxes: middle 80 % "
                       "of settings and median; marks: starts of readings")  # fmt: skip
         for k, (output, sample) in enumerate(((SLIP, CAGE), (ROOT, RIVET))):
-            ax = sheet.axes_at(figure, (90 + k * 600, TOP, 330, 300))
+            ax = sheet.axes_at(figure, (90 + k * 680, TOP, 330, 300))
             of_both(ax, computed, output, sample)
             ax.set(xticks=(0.0, 1.0), xlim=(-0.5, 1.6), ylabel=SHOWN[output][0])
             ax.set_xticklabels(("modified", "original"))
@@ -270,7 +270,7 @@ def draw(computed, folder: Path) -> dict[str, str]:
     found["5"] = sweep(c, folder, "figure_5", "Figure 5: over the pocket radius", (
         ("(a) force", FORCE, *radius, CAGE), ("(b) rivets", ROOT, *radius, RIVET),
         ("(c) slip", SLIP, *radius, CAGE), ("(c) tilt", TILT, *radius, CAGE)))  # fmt: skip
-    found["6"] = sweep(c, folder, "figure_6_7", "Figures 6 and 7: over the cage's width and sheet", (
+    found["6"] = sweep(c, folder, "figure_6_7", "Figures 6 and 7: over width and sheet", (
         ("6a force", FORCE, *width, CAGE), ("6c slip", SLIP, *width, CAGE),
         ("6c tilt", TILT, *width, CAGE), ("7a force", FORCE, *thick, CAGE),
         ("7a rivets", ROOT, *thick, RIVET), ("7b slip", SLIP, *thick, CAGE)))  # fmt: skip

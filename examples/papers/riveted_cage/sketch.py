@@ -44,7 +44,7 @@ def _arrow(ax: Axes, start: tuple[float, float], end: tuple[float, float], **how
 
 def _rig(ax: Axes) -> None:
     ax.add_patch(Rectangle((0, 4.4), 17, 1.2, fc=STEEL, ec="0.4"))
-    for x, name in ((4.0, "test bearing"), (8.0, "test bearing"), (15.2, "loading bearing")):
+    for x, name in ((4.0, "test"), (8.0, "bearings"), (15.2, "loading bearing")):
         for y in (5.7, 2.9):
             ax.add_patch(Rectangle((x, y), 1.3, 1.4, fc="white", ec="0.3"))
             ax.plot([x, x + 1.3], [y, y + 1.4], color="0.3", lw=0.7)
@@ -106,6 +106,6 @@ def _pocket(ax: Axes) -> None:
     _note(ax, r"$R_p$", -0.4, 1.4)
     _arrow(ax, (2.0, 0), (3.4, 0))
     _note(ax, r"$Q_c$", 2.2, 0.7, color=LOAD)
-    _note(ax, "rivet 1.2 mm; its head's root is weak", 0, -5.6, fontsize=9)
+    _note(ax, "rivet 1.2 mm: weak at its head's root", 0, -5.6, fontsize=8)
     _note(ax, "t", -8.0, 0.4)
     _plain(ax, (-8.6, 8.6), (-6.5, 6.0))
