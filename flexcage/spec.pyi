@@ -12,6 +12,9 @@ from flexcage.geometry.bearing import Bearing as Bearing
 from flexcage.geometry.bearing import RingLand as RingLand
 from flexcage.geometry.cage import Cage as Cage
 from flexcage.geometry.defect import CageDefect as CageDefect
+from flexcage.geometry.fits.spec import Fit as Fit
+from flexcage.geometry.life.spec import Life as Life
+from flexcage.geometry.life.spec import LoadPoint as LoadPoint
 from flexcage.geometry.materials import MATERIALS as MATERIALS
 from flexcage.geometry.materials import Material as Material
 from flexcage.geometry.ring import InnerRing as InnerRing

@@ -40,10 +40,10 @@ from flexcage.system.bodies import heaviest_load, in_housing
 from flexcage.system.constraints import names_of
 from flexcage.system.layout import Layout, bodies_of_bearing
 from flexcage.system.problem import BearingSystem
-from flexcage.system.rings.left_out import left_by_lands
 from flexcage.system.rings.low_modes import DAMPED
 from flexcage.system.rings.modes_data import no_modes
 from flexcage.system.rings.moving import MovingRings, moving_rings
+from flexcage.system.rings.neglected import neglected_at_lands
 from flexcage.system.rings.races import rigid_rings
 from flexcage.system.rings.sections import lands_follow
 from flexcage.system.start import constrained, find_start, with_push
@@ -113,6 +113,7 @@ def bearing_in_motion(
     specs: MotionSections, mesh: CageMesh | None, cage: CageReduction | None
 ) -> BearingSystem:
     """Bodies, contacts and equations of motion, which are compiled when first asked for."""
+    specs = specs.mounted
     seat = compliance_of(specs.mount, specs.bearing)
     rings = _moving_rings(specs, seat)
     if cage is not None:
@@ -126,6 +127,7 @@ def bearing_in_motion(
 
 def bearing_to_compile(specs: MotionSections) -> BearingSystem:
     """The same with any body for its cage, and a seat that stands: kernels are alike for all."""
+    specs = specs.mounted
     if specs.cage is None:
         return _assembled(specs, None)
     body = rigid_from_tets(np.eye(4, 3, -1), np.array([[0, 1, 2, 3]]), 1.0)
@@ -139,6 +141,7 @@ def _rigid_interface(specs: PocketSections) -> Any:
 
 def bent_rings(specs: RingSections) -> tuple[BentRing, ...]:
     """The rings that bend, as a run begins; none if both are rigid."""
+    specs = specs.mounted
     rings = _moving_rings(specs, compliance_of(specs.mount, specs.bearing))
     return rings.start.rings if rings else ()
 
@@ -223,6 +226,7 @@ def assembled_start(
 
     ``progress`` is a context like ``core.progress.Progress``.
     """
+    specs = specs.mounted
 
     def statics() -> StaticSolution:
         return bearing.rings.start if bearing.rings else _statics(specs, seat=bearing.seat)
@@ -231,9 +235,9 @@ def assembled_start(
     with progress(1.0, "start") as bar:
         start = find_start(bearing, limit_force=limit, statics=statics, advance=bar.to)
     if bearing.rings:
-        lands = left_by_lands(bearing.rings, bearing.data.model.land)
+        lands = neglected_at_lands(bearing.rings, bearing.data.model.land)
         start = replace(start, warnings=(*start.warnings, *bearing.rings.warnings, *lands))
-    odd = questioned(specs.mount, specs.bearing, bearing.seat)
-    start = replace(start, warnings=(*start.warnings, *odd))
+    unusual = questioned(specs.mount, specs.bearing, bearing.seat)
+    start = replace(start, warnings=(*start.warnings, *unusual))
     start = with_push(start, bearing.layout, specs.start)
     return constrained(start, bearing, specs.constraints, limit_force=limit)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import logging
 from dataclasses import replace
+from math import nan
 from pathlib import Path
 
 import numpy as np
 
 from flexcage.bearings import sections_of, statics_of
 from flexcage.case import Case, StaticCase
-from flexcage.case.odd_values import odd_values
+from flexcage.case.plausibility import implausible_values
 from flexcage.case.unread import not_used
 from flexcage.contacts.spec import EhlTraction
 from flexcage.core.binding import expect
@@ -18,7 +19,12 @@ from flexcage.core.errors import EnvironmentLacks, InputError
 from flexcage.core.listing import PAGE
 from flexcage.core.writing import write_text
 from flexcage.geometry.film import creep_speed
+from flexcage.geometry.life.iso281 import reliability_factor
+from flexcage.geometry.life.spec import Life
+from flexcage.system.spec import Drive
+from flexcage.system.statics.lives import combined_hours, limit_of, questioned_lives, rated
 from flexcage.system.statics.options import AT_START, StaticOptions
+from flexcage.system.statics.rated import Lives, RatedLife
 from flexcage.system.statics.rings import BentRing, Rings
 from flexcage.system.statics.solution import StaticSolution
 from flexcage.system.statics.solve import solve_bearing
@@ -35,16 +41,54 @@ def solve_static(case: StaticCase, *, options: StaticOptions | None = None) -> S
     Raises InputError for a load that the bearing cannot bear, RunFailed if none is found.
     """
     expect(case, (StaticCase, Case), "case", "flexcage.load_static reads one from a file")
-    seat = compliance_of(case.mount, case.bearing)
+    mounted = case.mounted
+    bearing = mounted.bearing
+    seat = compliance_of(case.mount, bearing)
     solution = solve_bearing(
-        case.bearing, statics_of(case.bearing), load=case.load, speed=case.speed,
+        bearing, statics_of(bearing), load=mounted.load, speed=case.speed,
         contacts=case.contacts, lubricant=case.lubricant, options=options or case.static,
-        rings=Rings(case.inner_ring, case.outer_ring, sections_of(case.bearing)),
+        rings=Rings(case.inner_ring, case.outer_ring, sections_of(bearing)),
         seat=seat,
     )  # fmt: skip
-    odd = (text for _, text in odd_values(case))
-    said = (*not_used(case), *odd, *questioned(case.mount, case.bearing, seat))
+    unusual = (text for _, text in implausible_values(case))
+    said = (*not_used(case), *unusual, *questioned(case.mount, bearing, seat))
+    solution = replace(solution, mounting=case.mounting)
+    if case.life.given:
+        lives = lives_of(case, solution)
+        said = (*said, *questioned_lives(lives, solution.ratings.dynamic))
+        solution = replace(solution, lives=lives)
     return replace(solution, warnings=(*said, *solution.warnings)) if said else solution
+
+
+def lives_of(case: StaticCase, solution: StaticSolution) -> Lives:
+    """Lives as [life] asks, of a case's static solution and of its spectrum, each point by a static
+    solution of its own. Raises InputError for a point whose load the bearing cannot bear."""
+    life, bearing = case.life, case.mounted.bearing
+    points = tuple(_at_point(case, k) for k in range(len(life.spectrum)))
+    shares = tuple(point.share for point in life.spectrum)
+    return Lives(
+        reliability=life.reliability, reliability_factor=reliability_factor(life.reliability),
+        contamination=life.contamination, fatigue_limit=limit_of(bearing, life),
+        here=rated(bearing, solution, life, case.lubricant), shares=shares, points=points,
+        combined=combined_hours(shares, points) if points else nan,
+    )  # fmt: skip
+
+
+def _at_point(case: StaticCase, k: int) -> RatedLife | None:
+    """Life at a point of the spectrum; None of one that stands still."""
+    point = case.life.spectrum[k]
+    if point.speed == 0.0:
+        return None
+    steady = replace(
+        case.load, radial=point.radial, axial=point.axial, ramp_to=None, ramp_time=0.0, times=(),
+        values=(), wave="none", wave_amplitude=0.0,
+    )  # fmt: skip
+    try:
+        own = case.replace(drive=Drive(speed=point.speed), load=steady, life=Life())
+        solution = solve_static(own)
+    except InputError as exc:
+        raise InputError(f"In life.spectrum.{k}: {exc}", where="life.spectrum") from exc
+    return rated(own.mounted.bearing, solution, case.life, own.lubricant, point.temperature)
 
 
 def ehl_traction(
@@ -67,7 +111,7 @@ def ehl_traction(
             where="drive.speed",
         )
     options = AT_START if isinstance(case, Case) else case.static
-    bearing, solution = case.bearing, solve_static(case, options=options)
+    bearing, solution = case.mounted.bearing, solve_static(case, options=options)
     balls = solution.elements
     entrained = bearing.rolling_entrainment(balls.angle, balls.orbital_speed, case.speed)
     found = []

@@ -45,11 +45,13 @@ from flexcage.system.statics.options import StaticOptions
 
 _FEW = 8  # values of a list that a notebook shows
 _NOT_PHYSICS = ("name", "description", "preset", "static", "given")
+_MOUNTED = ("bearing", "load")  # which [fit] changes: what follows of it counts
 #: Sections in the order of texts and pages; others follow.
 _ORDER = (
-    "name", "description", "preset", "bearing", "cage", "cage_model", "defects", "mesh", "modes",
-    "lubricant", "contacts", "drive", "load", "mount", "constraints", "start", "solver", "output",
-    "limits", "seed", "given", "inner_ring", "outer_ring", "static",
+    "name", "description", "preset", "bearing", "fit", "cage", "cage_model", "defects", "mesh",
+    "modes", "lubricant", "contacts", "drive", "load", "mount", "constraints", "start", "solver",
+    "output", "limits", "seed", "given", "inner_ring", "outer_ring", "life",
+    "static",
 )  # fmt: skip
 
 
@@ -123,8 +125,12 @@ class Case(CaseSections, StaticCase):
         of the user's own by the file that defines it. Attachments count where there are any: not
         with a rigid cage or round pockets.
         """
-        names = [f.name for f in dataclasses.fields(self) if f.name not in _NOT_PHYSICS]
+        left_out = (*_NOT_PHYSICS, "fit")
+        names = [f.name for f in dataclasses.fields(self) if f.name not in left_out]
         physics = {name: getattr(self, name) for name in names}
+        physics |= {name: getattr(self.mounted, name) for name in _MOUNTED}
+        if not self.life.given:
+            del physics["life"]
         physics["contacts"] = dataclasses.replace(self.contacts, land=self.land)
         if self.cage is not None:
             physics |= self._cage_physics(self.cage)
@@ -239,5 +245,5 @@ def load_case(
 
 def sections() -> list[dataclasses.Field]:
     """Fields of a case in the order of texts and pages."""
-    fields = Case.__dataclass_fields__
+    fields = {field.name: field for field in dataclasses.fields(Case)}
     return [fields[name] for name in dict.fromkeys((*_ORDER, *fields))]

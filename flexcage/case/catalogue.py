@@ -9,22 +9,24 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, replace
 from functools import cache
+from typing import Any
 
 from flexcage.case.catalogues import rows
-from flexcage.case.marks import split
-from flexcage.core.binding import near_names, told_elsewhere
+from flexcage.case.designation import Designation, plain, read, series, unknown_part
+from flexcage.case.marks import applied, rated_by_user
+from flexcage.core.binding import near_names, replacement_of
 from flexcage.core.errors import InputError
 from flexcage.core.units import parse
 from flexcage.geometry.bearing import OTHER_DESIGNS
 from flexcage.geometry.full_complement import CAGED, FULL
-from flexcage.geometry.inside import Outline
+from flexcage.geometry.inference import Outline
 from flexcage.geometry.other_kinds import kind_of
 
-# columns of ratings that only some types of bearing have: the option of "flexcage new" for each
+# columns of ratings that only some types of bearing have: the key, and the option of "flexcage new"
 _OPTIONS = {
-    "contact_angle_deg": "--contact-angle",
-    "inner_race_mm": "--inner-race",
-    "outer_race_mm": "--outer-race",
+    "contact_angle_deg": ("contact_angle", "--contact-angle"),
+    "inner_race_mm": ("inner_race_diameter", "--inner-race"),
+    "outer_race_mm": ("outer_race_diameter", "--outer-race"),
 }
 
 
@@ -44,52 +46,107 @@ def designations() -> list[str]:
 def find(text: str) -> Entry:
     """The bearing of a designation, "N 210" or "N210", "6205-2RS C3"; InputError if it is unknown,
     or known without ratings, or of a design that flexcage has not."""
-    plain = re.sub(r"[\s_/-]", "", text.upper())
-    name = _of_makers_series(plain)
-    entry = _found(text, name)
-    if name == plain:
-        return entry
-    return replace(entry, source=f"{entry.source}; {text} means {name}")
+    found = _read(text)
+    if found and (other := next((u for u in found.unknown if _is_known(u)), "")):
+        raise _refused(text, f"names two bearings; give one, as in: flexcage new {other}")
+    if not found or found.bare not in _ratings():
+        raise _not_found(text, found)
+    entry = _entry(found)
+    source = entry.source
+    if plain(found.bare) not in plain(text):
+        source = f"{source}; {text} means {found.bare}"
+    return Entry(outline=applied(entry.outline, found), source=source)
 
 
-def _found(text: str, name: str) -> Entry:
-    """The bearing of a designation, by its ``name`` without blanks in the catalogue's series."""
-    if name in _ratings():
-        return _entry(name)
-    if declined := kind_of(name):
+def known(text: str) -> dict[str, Any] | None:
+    """What is known of a bearing without ratings, keys of its outline: boundary dimensions (ISO 15)
+    and what its designation says; None of one with ratings, and of an unknown one."""
+    found = _read(text)
+    row = found and _boundary().get(_place(found))
+    if not found or not row or found.bare in _ratings():
+        return None
+    made, own = series()[found.series], _all_rows().get(found.number, {})
+    sizes = zip(("bore", "outside_diameter", "width"), row)
+    dimensions = {key: parse(size, "mm") for key, size in sizes}
+    races = {
+        key: parse(f"{own[column]} mm", "mm")
+        for column, (key, _) in _OPTIONS.items()
+        if own.get(column) and column != "contact_angle_deg"
+    }
+    angle = {"contact_angle": parse(f"{found.degrees} deg", "deg")} if found.degrees else {}
+    return {
+        "type": made["type"], "design": made["design"] or None, "complement": made["complement"],
+        **dimensions, **races, **angle,
+    }  # fmt: skip
+
+
+def with_marks(outline: Outline) -> Outline:
+    """An outline that a user gives, with what the marks of its designation say."""
+    found = read(outline.designation)
+    if not found or series()[found.series]["type"] != outline.type:
+        return outline
+    marked = applied(outline, found)
+    return rated_by_user(replace(marked, designation=outline.designation))
+
+
+def _is_known(text: str) -> bool:
+    """Is a text the designation of a bearing of known dimensions?"""
+    found = read(text)
+    return found is not None and _place(found) in _boundary()
+
+
+def _read(text: str) -> Designation | None:
+    """A designation in parts; the suffix that numbers of its series may leave out is there, the A
+    of a contact angle of 30 degrees (NTN, Ball and Roller Bearings, CAT. No. 2203/E)."""
+    if declined := kind_of(text):
         raise InputError(f"'{text}' {declined}.", where="designation", value=text)
-    if marked := split(name, _ratings()):
-        bare = _entry(marked.bare)
-        return replace(bare, outline=marked.applied(bare.outline))
-    if full := _with_suffix(name):
-        entry = _entry(full)
-        return replace(entry, source=f"{entry.source}; {text} means {full}")
-    if not _parsed(name) and (design := _of_a_design(name)):
-        raise InputError(
-            f"'{text}' is a cylindrical roller bearing of the design {design}, which flexcage has, "
-            f"but the catalogue has only the series {', '.join(_series_of(design))} of it; "
-            f"describe it by flexcage new {name} --type cylindrical_roller --design {design} "
-            '--bore "..." --outside "..." --width "..." --dynamic "..." --static "...".',
-            where="designation",
-            value=text,
-        )
-    if not _parsed(name) and (uncaged := _UNCAGED.fullmatch(name)):
-        raise InputError(
-            f"'{text}' is a full complement cylindrical roller bearing; the catalogue has those of "
-            f"the series {', '.join(_uncaged_series())} with bores of 20 to 60 mm, and any other "
-            f"one is described by {_uncaged_way(uncaged[1])}.",
-            where="designation",
-            value=text,
-        )
-    if not _parsed(name) and (told := told_elsewhere(name, OTHER_DESIGNS)):
-        raise InputError(f"'{text}': {told}{_same_rollers(name)}.", where="designation", value=text)
+    found = read(text)
+    if found and not found.angle:
+        full = replace(found, angle=series()[found.series]["omitted"])
+        return full if full.bare in _ratings() else found
+    return found
+
+
+def _not_found(text: str, found: Designation | None) -> InputError:
+    """The sentence on a designation without an entry."""
+    name = plain(text)
     uncaged = _UNCAGED.fullmatch(name)
-    raise _without_ratings(text, name) or InputError(
-        f"'{text}' is not in the catalogue; {_nearest(name)}, and any other bearing is described "
-        f"by {_uncaged_way(uncaged[1]) if uncaged else WAY}.",
-        where="designation",
-        value=text,
-    )
+    if not found:
+        if design := _of_a_design(name):
+            return _refused(
+                text,
+                f"is a cylindrical roller bearing of the design {design}, which flexcage has, "
+                f"but the catalogue has only the series {', '.join(_series_of(design))} of it; "
+                f"describe it by flexcage new {name} --type cylindrical_roller --design {design} "
+                '--bore "..." --outside "..." --width "..." --dynamic "..." --static "..."',
+            )
+        if uncaged:
+            return _refused(
+                text,
+                "is a full complement cylindrical roller bearing; the catalogue has those of the "
+                f"series {', '.join(_uncaged_series())} with bores of 20 to 60 mm, and any other "
+                f"one is described by {_uncaged_way(uncaged[1])}",
+            )
+        if told := replacement_of(name, OTHER_DESIGNS):
+            return InputError(f"'{text}': {told}{_same_rollers(name)}.", where="designation",
+                              value=text)  # fmt: skip
+        if parts := unknown_part(text):
+            number, rest = parts
+            return _refused(
+                text, f"has '{rest}' beside '{number}', which flexcage does not know; set it apart "
+                f'to leave it out, as in: flexcage new "{number} {rest}"',
+            )  # fmt: skip
+    elif _place(found) in _boundary():
+        return _without_ratings(text, found)
+    way = _uncaged_way(uncaged[1]) if uncaged else WAY
+    return _refused(
+        text, f"is not in the catalogue; {_nearest(found.bare if found else name)}, and any other "
+        f"bearing is described by {way}",
+    )  # fmt: skip
+
+
+def _refused(text: str, why: str) -> InputError:
+    return InputError(f"'{text}' {why}.", where="designation", value=text)
 
 
 _UNCAGED = re.compile(r"(NCF|NJG|SL18|SL19)\d.*")  # a test holds the series against it
@@ -106,27 +163,8 @@ def _uncaged_way(start: str) -> str:
 
 def _uncaged_series() -> list[str]:
     """The series of full complements, each with a maker's other names of it."""
-    full = {name: row for name, row in _series().items() if row["complement"] == FULL}
+    full = {name: row for name, row in series().items() if row["complement"] == FULL}
     return [f"{name} ({', '.join(row['makers_series'].split())})" for name, row in full.items()]
-
-
-def _of_makers_series(name: str) -> str:
-    """A designation by the series of this catalogue, where a maker's own name of it is given, as
-    SL183010 is NCF3010, and NJ2308VH NJG2308VH."""
-    for series, row in _series().items():
-        for other in row["makers_series"].split():
-            full = "" if other.startswith("SL") else "VH"
-            if match := re.fullmatch(rf"{other}(\d\d)A?({full}.*)", name):
-                return f"{series}{match[1]}{match[2]}"
-    return name
-
-
-def _with_suffix(name: str) -> str:
-    """A designation with the suffix that numbers of its series may leave out, the A of a contact
-    angle of 30 degrees (NTN, Ball and Roller Bearings, CAT. No. 2203/E); empty if it has none."""
-    parsed = _parsed(name)
-    full = f"{name}{parsed[0]['omitted']}" if parsed and not parsed[2] else ""
-    return full if full in _ratings() else ""
 
 
 WAY = (
@@ -139,15 +177,21 @@ def _nearest(name: str) -> str:
     """The known designations that are nearest to a name, or what the catalogue has at all."""
     close = near_names(name, _ratings())
     if not close:
-        return f"it has the series {', '.join(_series())}, with bores of 10 to 60 mm"
+        return f"it has ratings of the series {', '.join(_rated_series())}"
     return f"the nearest known {'one is' if len(close) == 1 else 'ones are'} {', '.join(close)}"
+
+
+def _rated_series() -> list[str]:
+    """Series of which there are ratings."""
+    rated = {found.series for name in _ratings() if (found := read(name))}
+    return [name for name in series() if name in rated]
 
 
 def _same_rollers(name: str) -> str:
     """What there is in the place of another design, which has its rolling elements and races."""
-    for series, row in _series().items():
+    for first, row in series().items():
         for other in row["other_designs"].split():
-            own = f"{series}{name.removeprefix(other)[:2]}"
+            own = f"{first}{name.removeprefix(other)[:2]}"
             if re.match(rf"{other}\d\d(\D|$)", name) and own in _ratings():
                 return f"; '{own}' has the same races and ratings"
     return ""
@@ -161,73 +205,62 @@ def _of_a_design(name: str) -> str:
 
 def _series_of(design: str) -> list[str]:
     """Its series with a cage."""
-    caged = {name: row for name, row in _series().items() if row["complement"] == CAGED}
+    caged = {name: row for name, row in series().items() if row["complement"] == CAGED}
     return [name for name, row in caged.items() if design and row["design"] == design]
 
 
-def _parsed(name: str) -> tuple[dict[str, str], str, str] | None:
-    """Row of the series, bore code and suffix of a designation; None if it has another form."""
-    pattern = rf"({'|'.join(_series())})(\d\d)((?:[A-Z][A-Z0-9]*)?)"
-    match = re.fullmatch(pattern, name)
-    return (_series()[match[1]], match[2], match[3]) if match else None
-
-
-def _without_ratings(text: str, name: str) -> InputError | None:
+def _without_ratings(text: str, found: Designation) -> InputError:
     """The sentence on a designation whose dimensions alone are known."""
-    parsed = _parsed(name)
-    found = parsed and _boundary().get((parsed[0]["diameter_series"], parsed[1]))
-    if not parsed or not found:
-        return None
-    series, code, suffix = parsed
-    bore, outside, width = found
-    wanted, angle = _wanted(series), ""
-    if "--contact-angle" in wanted and suffix in _suffixes():
-        wanted.remove("--contact-angle")
-        angle = f' --contact-angle "{_suffixes()[suffix]} deg"'
-    design = f" --design {series['design']}" if series["design"] else ""
-    if series["complement"] == FULL:
-        design += " --cage none"
-    if own := _all_rows().get(f"{series['series']}{code}"):  # with races, without ratings
-        races = [column for column in _OPTIONS if own[column]]
-        wanted = []
-        angle = "".join(f' {_OPTIONS[column]} "{own[column]} mm"' for column in races)
-    others = [n for n in _ratings() if re.fullmatch(rf"{series['series']}{code}\D*", n)]
-    has = f" (it has {', '.join(others)})" if others else ""
+    has = known(text) or {}
+    row, (bore, outside, width) = series()[found.series], _boundary()[_place(found)]
+    wanted = ["--dynamic", "--static"]
+    wanted += [option for key, option in _wanted(row) if key not in has]
+    others = [n for n in _ratings() if re.fullmatch(rf"{found.number}\D*", n)]
+    listed = f"; it has {', '.join(others)}" if others else ""
+    size = f"{bore.removesuffix(' mm')} x {outside.removesuffix(' mm')} x {width}"
+    name = str(found) if plain(found.number) in plain(text) else found.bare
+    options = " ".join(f'{option} "..."' for option in wanted)
     return InputError(
-        f"The catalogue has no ratings of '{text}'{has}{_same_rollers(name)}. Give them: add "
-        f"{', '.join(['--dynamic', '--static', *wanted])} to flexcage new {name} --type "
-        f'{series["type"]}{design} --bore "{bore}" --outside "{outside}" --width "{width}"{angle}.',
+        f"The catalogue has no ratings of '{text}' ({size} by ISO 15{listed})"
+        f"{_same_rollers(found.bare)}; give your maker's: flexcage new {name} {options}.",
         where="designation",
         value=text,
     )
 
 
-def _wanted(series: dict[str, str]) -> list[str]:
-    """Options of what bearings of a series need beside dimensions and ratings."""
-    alike = next(row for n, row in _all_rows().items() if n.startswith(series["series"]))
-    return [option for column, option in _OPTIONS.items() if alike[column]]
+def _wanted(row: dict[str, str]) -> list[tuple[str, str]]:
+    """Keys and options of what bearings of a series need beside dimensions and ratings."""
+    alike = [
+        own for name, own in _all_rows().items()
+        if (made := read(name)) and (other := series()[made.series])["type"] == row["type"]
+        and other["complement"] == row["complement"]
+        and (row["complement"] == CAGED or other["design"] == row["design"])
+    ]  # fmt: skip
+    return [pair for column, pair in _OPTIONS.items() if alike[0][column]]
 
 
-def _entry(name: str) -> Entry:
-    row = _ratings()[name]
-    parsed = _parsed(name)
-    assert parsed is not None  # a test holds all designations of the file against the pattern
-    series, code, _ = parsed
-    place = series["diameter_series"], code
-    bore, outside, width = (parse(text, "mm") for text in _boundary()[place])
+def _place(found: Designation) -> tuple[str, str]:
+    """Its diameter series, with that of widths where it has several, and bore code."""
+    return series()[found.series]["diameter_series"], found.code
+
+
+def _entry(found: Designation) -> Entry:
+    row, made = _ratings()[found.bare], series()[found.series]
+    bore, outside, width = (parse(text, "mm") for text in _boundary()[_place(found)])
     return Entry(
         outline=Outline(
-            type=series["type"], designation=name, bore=bore, outside_diameter=outside, width=width,
+            type=made["type"], designation=found.bare, bore=bore, outside_diameter=outside,
+            width=width,
             static_rating=parse(f"{row['static_kN']} kN", "kN"),
             dynamic_rating=parse(f"{row['dynamic_kN']} kN", "kN"),
             contact_angle=_optional(row["contact_angle_deg"], "deg"),
             inner_race_diameter=_optional(row["inner_race_mm"], "mm"),
             outer_race_diameter=_optional(row["outer_race_mm"], "mm"),
-            design=series["design"] or None,
+            design=made["design"] or None,
             inner_rib_diameter=_optional(row["inner_rib_mm"], "mm"),
             outer_rib_diameter=_optional(row["outer_rib_mm"], "mm"),
-            complement=series["complement"],
-            left_out=(series["left_out"],) if series["left_out"] else (),
+            complement=made["complement"],
+            left_out=(made["left_out"],) if made["left_out"] else (),
         ),
         source=_sources()[row["source"]],
     )  # fmt: skip
@@ -245,20 +278,6 @@ def _all_rows() -> dict[str, dict[str, str]]:
 @cache
 def _ratings() -> dict[str, dict[str, str]]:
     return {name: row for name, row in _all_rows().items() if row["static_kN"]}
-
-
-@cache
-def _series() -> dict[str, dict[str, str]]:
-    """By series: type and design of bearing, diameter series of ISO 15, series of other designs
-    that have its rolling elements and races, the suffix that numbers may leave out, whether they
-    are full complements, makers' own names of the series, and what of them is left out."""
-    return {row["series"]: row for row in rows("series")}
-
-
-@cache
-def _suffixes() -> dict[str, str]:
-    """Contact angles [deg] by suffix: those that all makers mean ("A" is 25 or 30 degrees)."""
-    return {row["suffix"]: row["contact_angle_deg"] for row in rows("suffixes")}
 
 
 @cache

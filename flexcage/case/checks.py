@@ -10,6 +10,8 @@ from typing import Any
 
 from flexcage.bearings import in_motion
 from flexcage.cages import cage_type_of
+from flexcage.case.fit_checks import find_in_fit
+from flexcage.case.life_checks import find_in_life
 from flexcage.case.read_values import files_of
 from flexcage.case.ring_checks import find_bending_in_run, find_in_rings
 from flexcage.case.sections import NO_CAGE, CaseSections, StaticSections
@@ -137,10 +139,11 @@ def _find_in_name(case: CaseSections) -> Iterator[Finding]:
 
 
 def _find_in_materials(case: Any) -> Iterator[Finding]:
-    for where in ("bearing", "cage"):
-        material = getattr(getattr(case, where, None), "material", None)
+    for where in ("bearing.material", "bearing.element_material", "cage.material"):
+        part, _, key = where.partition(".")
+        material = getattr(getattr(case, part, None), key, None)
         if material is not None and material.density < _LEAST_DENSITY:
-            here = f"{where}.material.density"
+            here = f"{where}.density"
             yield (
                 here,
                 f"{here} is {describe(material.density, 'kg/m^3')}, far below that of any solid; "
@@ -615,7 +618,7 @@ def _find_in_width(case: CaseSections) -> Iterator[Finding]:
         )
 
 
-def land_beside_shoulder(case: CaseSections) -> Iterator[str]:
+def land_clearance_mismatch(case: CaseSections) -> Iterator[str]:
     """A sentence on a clearance that is not what the shoulder of the guiding ring leaves: no
     mistake, as the ring may have a land of its own, but one to know of."""
     given, ring = case.contacts.land.clearance, case.bearing.land(case.its_cage)
@@ -638,5 +641,7 @@ _OF_EVERY_CASE = (
     _find_in_tilt,
     _find_in_speed,
     find_in_rings,
+    find_in_fit,
+    find_in_life,
 )
 _OF_CAGES = (_find_in_mesh, _find_in_temperature, _find_in_land)

@@ -12,6 +12,7 @@ from flexcage.case.sections import CaseSections
 from flexcage.core.binding import to_table
 from flexcage.core.units import typeset
 from flexcage.geometry.cage import Cage
+from flexcage.geometry.materials import EXPANSIONS
 from flexcage.geometry.temperature import MODULUS_CURVES
 from flexcage.system.spec import Load, Wave
 
@@ -22,8 +23,18 @@ def in_words(case: CaseSections) -> list[str]:
     """Paragraphs: bearing, cage and defects; drive and load; and how it was computed."""
     asked = f"The case calls itself “{case.description}”." if case.description else ""
     cage = f"{_cage(case, case.cage)} {_defects(case, case.cage)}" if case.cage else _NO_CAGE
-    what = f"{case.bearing.in_words()} {cage}"
+    what = f"{case.mounted.bearing.in_words()} {_fit(case)}{cage}"
     return [text for text in (asked, what, f"{_motion(case)} {_method(case)}") if text]
+
+
+def _fit(case: CaseSections) -> str:
+    if (mounting := case.mounting) is None:
+        return ""
+    before = mounting.part("initial").values[mounting.taken]
+    return (
+        f"Its clearance is what fits, warmth and speed leave of {typeset(before, 'um', digits=3)} "
+        "before mounting. "
+    )
 
 
 def _cage(case: CaseSections, cage: Cage) -> str:
@@ -165,8 +176,13 @@ def _value(table: Any, path: str) -> str:
 def grounds(case: CaseSections) -> dict[str, str]:
     """Where the values of a case come from: its preset's sources and those of its materials."""
     found = dict(load_preset(case.preset).sources) if case.preset else {}
-    if case.bearing.material.source:
-        found[case.bearing.material.name] = case.bearing.material.source
+    if any(case.fit.warmth.values()):
+        bodies = (case.bearing.material, case.fit.shaft_material, case.fit.housing_material)
+        for name in (body.name for body in bodies if body.name in EXPANSIONS):
+            found[f"expansion of {name}"] = EXPANSIONS[name][1]
+    for material in (case.bearing.material, case.bearing.rolling_material):
+        if material.source:
+            found[material.name] = material.source
     if case.cage is None:
         return found
     if case.cage.material.source:

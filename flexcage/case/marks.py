@@ -1,92 +1,89 @@
-"""What makers write after a designation, as in "6205-2RS C3", "NU 210 ECP" or "7010 CD/P4A": seals,
-shields, the clearance, the cage, tolerances."""
+"""What prefixes and marks of a designation, as in "6205-2RS C3", "NU 210 ECP" or "7010 CD/HCP4A",
+say of a bearing: seals, the clearance, the cage, the material of its elements, tolerances."""
 
 from __future__ import annotations
 
-from collections.abc import Container
-from dataclasses import dataclass, replace
-from functools import cache
+from dataclasses import replace
 
-from flexcage.case.catalogues import rows
+from flexcage.case.catalogues import clearance_limits
+from flexcage.case.designation import Designation, meanings, prefixes
 from flexcage.core.errors import InputError
 from flexcage.geometry.full_complement import CAGED, FILLED
-from flexcage.geometry.inside import ClearanceGroup, Outline
+from flexcage.geometry.inference import ClearanceGroup, MarkedCage, Outline
 
-_GROUPS = ("C2", "CN", "C3", "C4", "C5")
 _NORMAL = "CN"
 _FULL = ("V", "CV", "VH")  # without a cage
+_NONE = "left out: flexcage has none"
+_USED = "as the case here has it"
+_RATED = (
+    "the ratings here are the named catalogue's: give the maker's with --dynamic and --static",
+    "the ratings are given",
+)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Marked:
-    """A designation in parts: the bare one, and the marks after it."""
-
-    bare: str
-    marks: tuple[str, ...]
-
-    def applied(self, outline: Outline) -> Outline:
-        """The bare bearing's outline with its marks, the clearance that they name, and what is left
-        out of the rest; InputError if such bearings have no groups of clearance."""
-        known = _meanings()
-        group = next((mark for mark in self.marks if mark in _GROUPS), None)
-        full = outline.complement == CAGED and any(mark in _FULL for mark in self.marks)
-        return replace(
-            outline,
-            designation="-".join((self.bare, *self.marks)),
-            clearance=None if group is None else _clearance(outline, group),
-            complement=FILLED if full else outline.complement,
-            left_out=(
-                *outline.left_out,
-                *(f"{m}: {known[m]}." for m in self.marks if m in known),
-            ),
-        )
-
-
-def split(name: str, known: Container[str]) -> Marked | None:
-    """Parts of a designation in capitals without blanks, dashes and strokes, whose bare form is
-    ``known``; None if it is none of them, or something else follows."""
-    for at in range(1, len(name)):
-        if name[:at] in known and (marks := _marks_in(name[at:])):
-            return Marked(bare=name[:at], marks=marks)
-    return None
-
-
-def _marks_in(text: str) -> tuple[str, ...]:
-    """The marks that make up a text, long ones first where it can be read in two ways; none if
-    something else is in it."""
-    for mark in sorted((*_meanings(), *_GROUPS), key=len, reverse=True):
-        if text == mark:
-            return (mark,)
-        if text.startswith(mark) and (more := _marks_in(text[len(mark) :])):
-            return (mark, *more)
-    return ()
-
-
-def _clearance(outline: Outline, group: str) -> ClearanceGroup:
-    bore = 1e3 * outline.bore
-    for row in rows("clearance"):
-        if row["type"] == outline.type and float(row["over_mm"]) < bore <= float(row["to_mm"]):
-            (least, largest), normal = _limits(row[group]), _limits(row[_NORMAL])
-            more = (least + largest - sum(normal)) / 2.0
-            return ClearanceGroup(name=group, least=least, largest=largest, more=more)
-    raise InputError(
-        f"'{group}' names a group of radial clearance, and flexcage knows none of bearings of type "
-        f"'{outline.type}' with a bore of {bore:g} mm: leave it out.",
-        where="designation",
-        value=group,
+def applied(outline: Outline, designation: Designation) -> Outline:
+    """The outline of a bare bearing with what its designation's prefix and marks say: clearance,
+    cage, and material of the elements; the rest is named in ``left_out``. InputError if such
+    bearings have no groups of clearance."""
+    marks, group = designation.marks, designation.clearance_class
+    full = outline.complement == CAGED and any(mark in _FULL for mark in marks)
+    said = [prefixes()[designation.prefix]] if designation.prefix else []
+    known = [*said, *(meanings()[mark] for mark in marks if mark in meanings())]
+    elements = [row for row in known if row["element_material"]]
+    return replace(
+        outline,
+        designation=str(designation),
+        clearance=None if group is None else _clearance(outline, group),
+        complement=FILLED if full else outline.complement,
+        cage=next((cage for row in known if (cage := _cage(outline, row))), None),
+        element_material=elements[0]["element_material"] if elements else None,
+        left_out=(
+            *outline.left_out,
+            *(_sentence(outline, row) for row in known),
+            *(f"{mark}: not known to flexcage, and left out." for mark in designation.unknown),
+        ),
     )
 
 
-def _limits(text: str) -> tuple[float, float]:
-    """Least and largest [m] of an entry such as "5-20", in um."""
-    least, largest = (1e-6 * float(part) for part in text.split("-"))
-    return least, largest
+def rated_by_user(outline: Outline) -> Outline:
+    """An outline with ratings that a user gives, as its sentences on marks have it."""
+    told = tuple(text.replace(*_RATED) for text in outline.left_out)
+    return replace(outline, left_out=told)
 
 
-@cache
-def _meanings() -> dict[str, str]:
-    """What every mark means, and what there is instead, where flexcage has no such thing."""
-    return {
-        row["mark"]: f"{row['meaning']}, {row['instead'] or 'left out: flexcage has none'}"
-        for row in rows("marks")
-    }
+def _sentence(outline: Outline, row: dict[str, str]) -> str:
+    name = row.get("mark") or row["prefix"]
+    instead = _USED if _cage(outline, row) else row["instead"] or _NONE
+    return f"{name}: {row['meaning']}, {instead}."
+
+
+def _cage(outline: Outline, row: dict[str, str]) -> MarkedCage | None:
+    """The cage that a mark names, if flexcage has such a one for bearings of this type."""
+    column = "roller_cage" if outline.type == "cylindrical_roller" else "ball_cage"
+    kind = row.get(column, "")
+    if outline.type == "angular_contact_ball":
+        kind = _ON_SHOULDERS.get(kind, kind)
+    if not kind:
+        return None
+    return MarkedCage(
+        mark=row["mark"], meaning=row["meaning"], type=kind, material=row["cage_material"]
+    )
+
+
+# in the place of cages of deep groove ball bearings alone; none of a pressed one
+_ON_SHOULDERS = {"crown": "machined", "ribbon": ""}
+
+
+def _clearance(outline: Outline, group: str) -> ClearanceGroup:
+    limits = clearance_limits(outline.type, outline.bore, group)
+    normal = clearance_limits(outline.type, outline.bore, _NORMAL)
+    if limits is None or normal is None:
+        raise InputError(
+            f"'{group}' names a group of radial clearance, and flexcage knows none of bearings of "
+            f"type '{outline.type}' with a bore of {1e3 * outline.bore:g} mm: leave it out.",
+            where="designation",
+            value=group,
+        )
+    return ClearanceGroup(
+        name=group, least=limits[0], largest=limits[1], more=0.5 * (sum(limits) - sum(normal))
+    )

@@ -7,15 +7,21 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from functools import cached_property
+from typing import Any, ClassVar, Self
 
+from flexcage.case.fitted import in_operation, mounting_of
 from flexcage.contacts.spec import Contacts, LandSpec, Lubricant
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.defect import CageDefect, defect_spec
+from flexcage.geometry.fits.mounting import Mounting
+from flexcage.geometry.fits.spec import Fit
+from flexcage.geometry.life.spec import Life
 from flexcage.geometry.other_kinds import SURROUNDINGS
 from flexcage.geometry.ring import InnerRing, OuterRing
 from flexcage.mesh.options import MeshOptions
@@ -56,6 +62,7 @@ class LoadedSections:
     """A bearing under load, turning."""
 
     bearing: Bearing = option(doc="the bearing")
+    fit: Fit = option(Fit(), doc="how the bearing sits on its shaft and in its housing, how warm")
     contacts: Contacts = option(Contacts(), doc="contact laws, place by place")
     lubricant: Lubricant = option(Lubricant(), doc="the lubricant")
     drive: Drive = option(Drive(speed=0.0), doc="what turns the inner ring")
@@ -65,6 +72,24 @@ class LoadedSections:
     def speed(self) -> float:
         """Speed of the inner ring [rad/s] at the start."""
         return self.drive.at_start
+
+    @cached_property
+    def mounting(self) -> Mounting | None:
+        """What fits, warmth and speed leave of the clearance; None where [fit] says nothing."""
+        return mounting_of(self.bearing, self.fit, self.drive) if self.fit.given else None
+
+    @cached_property
+    def mounted(self) -> Self:
+        """The same in operation, with the bearing and the load as [fit] leaves them; itself where
+        that says nothing. A run and a static solution are of this one."""
+        if self.mounting is None:
+            return self
+        bearing, load = in_operation(self.bearing, self.load, self.mounting)
+        new = copy(self)
+        for name, value in {"bearing": bearing, "load": load, "fit": Fit()}.items():
+            object.__setattr__(new, name, value)
+        new.__dict__.update(mounted=new, mounting=None)
+        return new
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,6 +110,7 @@ class RingSections(LoadedSections):
 class StaticSections(RingSections, NamedSections):
     """Bearing, contacts, load, speed and options, of which a static solution is made."""
 
+    life: Life = option(Life(), doc="how life is quoted, and of which load spectrum")
     static: StaticOptions = option(StaticOptions(), doc="how a static solution is meant")
     given: tuple[str, ...] | None = dataclasses.field(
         default=None, compare=False,
@@ -198,7 +224,9 @@ class CaseSections(MotionSections, StartSections, CageSections, StaticSections):
     def land(self) -> LandSpec:
         """The cage's land, with the clearance and width that the dimensions leave where the case
         gives none; as given without a cage."""
-        return self.contacts.land.on(self.bearing.land(self.cage) if self.cage else None)
+        if self.cage is None:
+            return self.contacts.land.on(None)
+        return self.contacts.land.on(self.mounted.bearing.land(self.cage))
 
     @property
     def held_in_words(self) -> str:

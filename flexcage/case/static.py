@@ -137,9 +137,10 @@ class StaticCase(StaticSections):
         return values
 
     def to_table(self) -> dict[str, Any]:
-        """Nested tables of texts with units, complete but for rings as by default: rigid."""
+        """Nested tables of texts with units, complete but for rings, fits and lives as by
+        default."""
         table = to_table(self, named=NAMED)
-        for name in ("inner_ring", "outer_ring"):
+        for name in ("inner_ring", "outer_ring", "fit", "life"):
             if getattr(self, name) == default_of(StaticCase.__dataclass_fields__[name]):
                 del table[name]
         if not self._in_motion:
@@ -187,6 +188,7 @@ def _asked_nothing() -> dict[str, Any]:
     """Sections as by default."""
     names = (
         "contacts", "lubricant", "drive", "load", "inner_ring", "outer_ring", "mount", "static",
+        "fit", "life",
     )  # fmt: skip
     return {name: default_of(StaticCase.__dataclass_fields__[name]) for name in names}
 
@@ -247,11 +249,14 @@ def load_static(
 
 
 def _put(table: Mapping[str, Any], keys: list[str], value: Any, path: str) -> dict[str, Any]:
-    """Copy of nested tables with one value replaced; lists are not part of static cases."""
+    """Copy of nested tables with one value replaced, also one of a table in a list."""
     head, *rest = keys
     if not rest:
         return {**table, head: value}
     below = table.get(head, {})
+    if isinstance(below, list) and rest[0].isdigit() and int(rest[0]) < len(below):
+        places = {str(k): item for k, item in enumerate(below)}
+        return {**table, head: [*_put(places, rest, value, path).values()]}
     if isinstance(below, str):
         below = {"name": below}  # a material by name, of which a value is overridden
     if not isinstance(below, Mapping):

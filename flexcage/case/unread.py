@@ -25,7 +25,7 @@ def reasons(case: StaticSections) -> dict[str, str]:
     """Dotted paths of values that nothing reads in such a case, and why: half a sentence. The path
     of a section stands for all values in it."""
     found = dict(unread(case))
-    for rule in (_in_contacts, _in_materials, _in_loads):
+    for rule in (_in_contacts, _in_materials, _in_loads, _by_fit):
         found.update(rule(case))
     if isinstance(case, CaseSections):  # a static solution is one of no cage
         found.update(_of_no_cage() if case.cage is None else _of_cage(case, case.cage))
@@ -70,6 +70,7 @@ def _of_no_cage() -> Iterator[tuple[str, str]]:
 
 
 def _of_cage(case: CaseSections, cage: Cage) -> Iterator[tuple[str, str]]:
+    yield "cage.material.expansion", "cages do not grow with temperature"
     yield from _on_lands(case.bearing, cage)
     yield from _of_a_rigid_cage(case)
     if not cage.has_faces:
@@ -91,6 +92,7 @@ def _on_lands(bearing: Bearing, cage: Cage) -> Iterator[tuple[str, str]]:
 def _in_materials(case: StaticSections) -> Iterator[tuple[str, str]]:
     for name, why in _NEVER.items():
         yield f"bearing.material.{name}", why
+        yield f"bearing.element_material.{name}", why
         for ring in ("inner_ring", "outer_ring"):
             yield f"{ring}.material.{name}", why
     for ring in ("inner_ring", "outer_ring"):
@@ -108,11 +110,19 @@ def _of_a_rigid_cage(case: CaseSections) -> Iterator[tuple[str, str]]:
         yield "cage.material.loss_factor", f"modes.{given} is given"
 
 
+def _by_fit(case: StaticSections) -> Iterator[tuple[str, str]]:
+    if case.fit.clearance is not None:
+        yield "bearing.radial_clearance", "fit.clearance gives it"
+    if not any(case.fit.warmth.values()):
+        for where in ("bearing.material", "fit.shaft_material", "fit.housing_material"):
+            yield f"{where}.expansion", "[fit] has no temperatures that differ"
+
+
 def _in_loads(case: StaticSections) -> Iterator[tuple[str, str]]:
     load = case.load
     if load.times:
         yield f"load.{load.varies}", "load.times is given"
-    swings = load.wave != "none" and load.wave_of == "radial"
+    oscillates = load.wave != "none" and load.wave_of == "radial"
     changes = (load.ramp_to is not None or load.times) and load.varies == "radial"
-    if not (load.radial or swings or changes):
+    if not (load.radial or oscillates or changes):
         yield "load.direction", "there is no radial load"

@@ -13,7 +13,7 @@ from flexcage.core.listing import wrapped
 from flexcage.core.writing import write_text
 
 if TYPE_CHECKING:
-    from flexcage.geometry.inside import Outline
+    from flexcage.geometry.inference import Outline
 
 _DIMENSIONS = (
     ("--bore", "bore", "mm", "bore, as '25 mm'"),
@@ -44,7 +44,8 @@ def add_commands(commands: Any) -> None:
 
 
 def new_command(args: argparse.Namespace) -> int:
-    """flexcage new DESIGNATION [-o FILE]: a commented case, and how its inside was found."""
+    """flexcage new DESIGNATION [-o FILE]: a commented case, and how its internal geometry
+    was found."""
     from flexcage.case.new import case_name, new_case
 
     outline, source = _outline(args)
@@ -62,22 +63,18 @@ def new_command(args: argparse.Namespace) -> int:
 def _outline(args: argparse.Namespace) -> tuple[Outline, str]:
     """What is known of the bearing, and from where: a catalogue's entry, what the options say, or
     the one changed by the other."""
-    from flexcage.case.catalogue import WAY, find
+    from flexcage.case.catalogue import WAY, find, known, with_marks
+    from flexcage.case.marks import rated_by_user
     from flexcage.case.sections import NO_CAGE
     from flexcage.core.errors import InputError
-    from flexcage.core.units import parse
     from flexcage.geometry.bearing import check_type
     from flexcage.geometry.full_complement import CAGED, FULL
-    from flexcage.geometry.inside import Outline
+    from flexcage.geometry.inference import Outline
 
     name = " ".join(args.designation)
     if args.type is not None:
         check_type(args.type)
-    given: dict[str, Any] = {
-        key: _positive(parse(text, unit, where=option), option, text)
-        for option, key, unit, _ in (*_DIMENSIONS, *_FURTHER)
-        if (text := getattr(args, key)) is not None
-    }
+    given = _given(args)
     lacking = [option for option, key, _, _ in _DIMENSIONS if key not in given]
     lacking = lacking if args.type else ["--type", *lacking]
     if not lacking:
@@ -85,32 +82,66 @@ def _outline(args: argparse.Namespace) -> tuple[Outline, str]:
         own = Outline(
             type=args.type, design=args.design, designation=name, complement=complement, **given
         )
-        return own, "given by the user"
+        return with_marks(own), "given by the user"
     if not name:
         what = f"{', '.join(lacking)} missing; " if given or args.type else ""
         raise InputError(f"{what}give a designation, such as 6205, or {WAY}.", where="designation")
+    rated = {"dynamic_rating", "static_rating"} <= given.keys()
+    if rated and (sizes := known(name)):
+        _check_alike(args, name, sizes["type"], sizes["design"], lacking)
+        _check_sizes(given, name, lacking)
+        own = Outline(designation=name, **{**sizes, **given})
+        return with_marks(own), "given by the user; dimensions of ISO 15"
     entry = find(name)
-    if args.type not in (None, entry.outline.type):
+    _check_alike(args, name, entry.outline.type, entry.outline.design, lacking)
+    _check_sizes(given, name, lacking)
+    options = [option for option, key, _, _ in (*_DIMENSIONS, *_FURTHER) if key in given]
+    changed = f"{entry.source}; {', '.join(options)} given by the user" if given else entry.source
+    made = replace(entry.outline, **given)
+    return rated_by_user(made) if rated else made, changed
+
+
+def _given(args: argparse.Namespace) -> dict[str, Any]:
+    """Dimensions and ratings that the options give, by keys of an outline."""
+    from flexcage.core.units import parse
+
+    return {
+        key: _positive(parse(text, unit, where=option), option, text)
+        for option, key, unit, _ in (*_DIMENSIONS, *_FURTHER)
+        if (text := getattr(args, key)) is not None
+    }
+
+
+def _check_alike(
+    args: argparse.Namespace, name: str, kind: str, design: str | None, lacking: list[str]
+) -> None:
+    """Refuse another type or design than the designation means."""
+    from flexcage.core.errors import InputError
+
+    if args.type not in (None, kind):
         raise InputError(
-            f"'{name}' is a bearing of type '{entry.outline.type}', not '{args.type}'; leave "
+            f"'{name}' is a bearing of type '{kind}', not '{args.type}'; leave "
             f"--type out, or give {', '.join(lacking)} as well.",
             where="--type",
         )
-    if args.design not in (None, entry.outline.design):
+    if args.design not in (None, design):
         raise InputError(
-            f"'{name}' is {_of_design(entry.outline.design)}, not of '{args.design}'; leave "
+            f"'{name}' is {_of_design(design)}, not of '{args.design}'; leave "
             f"--design out, or give {', '.join(lacking)} as well.",
             where="--design",
         )
-    if given.keys() & entry.outline.boundary.keys():
+
+
+def _check_sizes(given: dict[str, Any], name: str, lacking: list[str]) -> None:
+    """Refuse boundary dimensions beside a designation that has its own."""
+    from flexcage.core.errors import InputError
+
+    if given.keys() & {"bore", "outside_diameter", "width"}:
         raise InputError(
             f"The boundary dimensions of '{name}' are known; leave them out, or give "
             f"{', '.join(lacking)} as well.",
             where="designation",
         )
-    options = [option for option, key, _, _ in (*_DIMENSIONS, *_FURTHER) if key in given]
-    changed = f"{entry.source}; {', '.join(options)} given by the user" if given else entry.source
-    return replace(entry.outline, **given), changed
 
 
 def _of_design(design: str | None) -> str:

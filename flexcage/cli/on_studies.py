@@ -8,6 +8,7 @@ from typing import Any
 
 from flexcage.cli.parser import command, say, whole_number
 from flexcage.cli.settings import settings_of
+from flexcage.mesh.options import FINENESS
 
 
 def add_commands(commands: Any) -> None:
@@ -17,9 +18,7 @@ def add_commands(commands: Any) -> None:
     run = command(actions, "run", study_run_command, "compute what a study's folder lacks")
     run.add_argument("study", metavar="STUDY", help="study file (.toml)")
     run.add_argument("-o", "--out", metavar="DIR", help="study folder (default: runs/NAME)")
-    run.add_argument(
-        "--set", action="append", metavar="PATH=VALUE", help="change a value of the base case"
-    )
+    _of_base_case(run)
     resume = command(actions, "resume", study_resume_command, "go on with a study that stopped")
     resume.add_argument("dir", metavar="DIR", help="study folder")
     for parser in (run, resume):
@@ -37,8 +36,9 @@ def add_commands(commands: Any) -> None:
         "--workers", type=whole_number, metavar="N", help="processes (default: cores)"
     )
     unknowns.add_argument(
-        "--set", action="append", metavar="PATH=VALUE", help="change a value of the base case"
+        "--points", type=_numbers, metavar="N,N", help="only these points of it, from 0"
     )
+    _of_base_case(unknowns)
     _other_version(unknowns)
     for name, function, text in (
         ("status", study_status_command, "count what is done, failed and open"),
@@ -56,6 +56,21 @@ def add_commands(commands: Any) -> None:
     )
     surface.add_argument("--highest", action="store_true", help="look for the highest value")
     surface.add_argument("--model", choices=("quadratic", "kriging"), help="default: both")
+
+
+def _of_base_case(parser: Any) -> None:
+    parser.add_argument(
+        "--set", action="append", metavar="PATH=VALUE", help="change a value of the base case"
+    )
+    parser.add_argument(
+        "--fineness", choices=FINENESS, help="of the cage's mesh: stress wants medium or fine"
+    )
+
+
+def _numbers(text: str) -> list[int]:
+    if not all(part.strip().isdecimal() for part in text.split(",")):
+        raise argparse.ArgumentTypeError(f"'{text}' should be whole numbers, as 0,3,17")
+    return [int(part) for part in text.split(",")]
 
 
 def _other_version(parser: Any) -> None:
@@ -105,8 +120,9 @@ def study_map_command(args: argparse.Namespace) -> int:
     spec = load_map(args.map, overrides=settings_of(args))
     out = Path(args.out) if args.out else Path("runs") / spec.name
     results = run_map(
-        spec, out=out, workers=args.workers, other_version=args.other_version, progress=Progress
-    )
+        spec, out=out, points=args.points, workers=args.workers, other_version=args.other_version,
+        progress=Progress,
+    )  # fmt: skip
     say(map_text(results))
     for path in write_map(results):
         say(f"written: {path}")

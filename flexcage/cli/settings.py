@@ -21,7 +21,7 @@ def case_from(args: argparse.Namespace) -> Any:
     return load_case(Path(args.case), overrides=overrides)
 
 
-def told_case_from(args: argparse.Namespace) -> Any:
+def checked_case_from(args: argparse.Namespace) -> Any:
     """The same, for commands that simulate nothing: logs which given values nothing reads."""
     import logging
 
@@ -34,8 +34,11 @@ def told_case_from(args: argparse.Namespace) -> Any:
 
 
 def settings_of(args: argparse.Namespace) -> dict[str, Any]:
-    """Values of --set by path."""
-    return dict(parse_setting(text) for text in args.set or ())
+    """Values of --set by path, and that of --fineness."""
+    found = dict(parse_setting(text) for text in args.set or ())
+    if getattr(args, "fineness", None):
+        found["mesh.fineness"] = args.fineness
+    return found
 
 
 def look_of(args: argparse.Namespace) -> dict[str, float]:

@@ -19,7 +19,8 @@ _DIGITS = 12  # 0.2 * 1e-3 and 200 * 1e-6 differ in the 16th digit and mean the 
 def canonical(obj: Any) -> Any:
     """Plain JSON values of nested dataclasses: numbers rounded to 12 significant digits.
 
-    Integers and floats of the same value are the same; arrays enter by shape, type and bytes.
+    Integers and floats of the same value are the same; arrays enter by shape, type and bytes;
+    fields that are not ``hashed`` (``core.spec``) stay out.
     """
     if obj is None or isinstance(obj, (bool, str)):
         return obj
@@ -30,7 +31,8 @@ def canonical(obj: Any) -> Any:
     if isinstance(obj, np.bool_):
         return bool(obj)
     if dataclasses.is_dataclass(obj) and not isinstance(obj, type):
-        values = {f.name: getattr(obj, f.name) for f in dataclasses.fields(obj)}
+        fields = [f for f in dataclasses.fields(obj) if f.metadata.get("hashed", True)]
+        values = {f.name: getattr(obj, f.name) for f in fields}
         return {"": type(obj).__name__, **{name: canonical(v) for name, v in values.items()}}
     if isinstance(obj, Mapping):
         return {str(k): canonical(v) for k, v in obj.items()}

@@ -46,13 +46,15 @@ def quantity(
     assumption: str = "",
     of: Collection[str] = (),
     when: When = (),
+    hashed: bool = True,
 ) -> Any:
     """A physical value held in SI; ``unit`` is the unit a person would write ("mm", "rpm").
 
     ``minimum`` and ``maximum`` are inclusive and ``above`` exclusive bounds, in SI.
     ``assumption`` says why a default that no source gives was chosen. ``of`` names those of the
     spec's laws (``law``) that read the value; without it all do. ``when`` says which other values
-    of the spec make anything read this one (``When``).
+    of the spec make anything read this one (``When``). Not ``hashed``: hashes leave it out
+    (``core.hashing``), for what follows from it counts by itself.
     """
     meta = {
         "unit": unit,
@@ -63,6 +65,7 @@ def quantity(
         "assumption": assumption,
         "of": of,
         "when": when,
+        "hashed": hashed,
     }
     return dataclasses.field(default=default, metadata=meta)
 

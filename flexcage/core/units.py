@@ -63,8 +63,10 @@ _COMMON: dict[str, tuple[str, int, float]] = {
     "N*s/m": ("damping", 0, 1.0),
     "Pa*s": ("viscosity", 0, 1.0),
     "mPa*s": ("viscosity", -3, 1.0),
+    "mm^2/s": ("kinematic viscosity", -6, 1.0),
     "1/Pa": ("pressure coefficient", 0, 1.0),
     "1/GPa": ("pressure coefficient", -9, 1.0),
+    "1/K": ("thermal expansion", 0, 1.0),
     "N*m/rad": ("torsional stiffness", 0, 1.0),
     "N*m*s/rad": ("torsional damping", 0, 1.0),
     "g*mm": ("unbalance", -6, 1.0),
@@ -93,11 +95,13 @@ _LIMITS: dict[str, tuple[float, float]] = {
     "stiffness per area": (1.0, 1e21),
     "damping": (1e-9, 1e12),
     "viscosity": (1e-9, 1e4),
+    "kinematic viscosity": (1e-12, 10.0),
     "pressure coefficient": (1e-15, 1e-5),
     "torsional stiffness": (1e-6, 1e15),
     "torsional damping": (1e-9, 1e12),
     "unbalance": (1e-15, 1e3),
     "temperature": (1e-3, 1e4),
+    "thermal expansion": (1e-9, 1e-2),
 }
 _DECIMAL_COMMA = re.compile(r"\s*[+-]?\d+,\d+\s*\D")
 _THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2},\d{3}(?!\d)")
@@ -128,7 +132,8 @@ _SPELLINGS: tuple[tuple[re.Pattern, Any], ...] = (
 )
 _TON = re.compile(r"\b[kM]?tons?\b")  # 907 kg for pint, and 1000 kg for most engineers
 _STEP = re.compile(r"delta_|Δ")
-_ODD = re.compile(r"\d{3}|\d\s*\^|%\s*\w|\w\s*%")  # powers that take pint for ever, parts of a unit
+# powers that take pint for ever, parts of a unit
+_SLOW_OR_PARTIAL = re.compile(r"\d{3}|\d\s*\^|%\s*\w|\w\s*%")
 _ANGLE = "[plane_angle]"
 # pint's angles have no dimension, so that 100 Hz would pass for 100 rad/s and N*m for N*m/rad
 _DEFINITIONS = (
@@ -283,7 +288,7 @@ def _parse_by_pint(number: float, given: str, unit: str, where: str, value: obje
 def _quantity(number: float, given: str) -> Any:
     """pint's quantity of a unit in any of its usual spellings."""
     given = _spelled(given)
-    if len(given) > _LONGEST or _ODD.search(given):
+    if len(given) > _LONGEST or _SLOW_OR_PARTIAL.search(given):
         raise ValueError(given)
     return _registry().Quantity(number, given)
 

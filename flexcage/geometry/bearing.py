@@ -15,16 +15,19 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 import numpy as np
 
-from flexcage.core.binding import check_value, told_elsewhere
+from flexcage.core.binding import check_value, replacement_of
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option
 from flexcage.core.units import typeset
 from flexcage.core.wings import FAMILIES, Parts
 from flexcage.geometry.cage import Cage, RingLimit
 from flexcage.geometry.film import Film, Oil
+from flexcage.geometry.life.iso281 import Endurance
+from flexcage.geometry.materials import contact_modulus
 from flexcage.geometry.other_kinds import kind_of, named_kind
 
 if TYPE_CHECKING:
+    from flexcage.geometry.fits.changed import Changed
     from flexcage.geometry.materials import Material
 
 _MISSING = object()
@@ -78,7 +81,7 @@ def check_type(name: Any) -> None:
     """Raise InputError for a type of bearing that there is not."""
     if isinstance(name, str) and name not in BEARING_TYPES:
         declined = named_kind(name) or kind_of(name)
-        if declined and not told_elsewhere(name, OTHER_DESIGNS):
+        if declined and not replacement_of(name, OTHER_DESIGNS):
             raise InputError(
                 f"bearing.type '{name}' is not known: {declined.removeprefix('is ')}; choose from "
                 f"{', '.join(BEARING_TYPES)}.",
@@ -100,6 +103,7 @@ class Bearing:
     # contacts of which [contacts] speaks, beside the cage's land
     places: ClassVar[tuple[str, ...]] = ("race", "pocket", "side", "rib")
     sliced: ClassVar[tuple[str, ...]] = ("race", "pocket")  # those cut in slices or strips
+    endurance: ClassVar[Endurance | None] = None  # constants of its modified life, ISO 281
     carries_axial_load: ClassVar[bool] = False  # in a run, with the ring free axially and in tilt
     elsewhere: ClassVar[Mapping[str, str]] = {}  # patterns of keys that it has not: what there is
 
@@ -118,6 +122,8 @@ class Bearing:
         def pitch_diameter(self) -> float: ...
         @property
         def material(self) -> Material: ...
+        @property
+        def element_material(self) -> Material | None: ...
         @property
         def inner_ring_mass(self) -> float: ...
         @property
@@ -163,9 +169,50 @@ class Bearing:
         return 0.0
 
     @property
+    def clearance(self) -> float:
+        """Radial internal clearance Pd [m]."""
+        raise self._lacks("clearance")
+
+    @property
+    def race_diameters(self) -> tuple[float, float]:
+        """Diameters [m] at which elements roll on inner and outer race."""
+        raise self._lacks("race_diameters")
+
+    def in_place(self, changed: Changed) -> Bearing:
+        """The bearing as fits, warmth and speed change it; types without it have no [fit]."""
+        raise self._lacks("in_place")
+
+    def approach(self, mounted: Bearing) -> float | None:
+        """By how much [m] the inner ring of this bearing, ``mounted``, meets its elements earlier
+        along the axis; None of types without a place of first contact."""
+        return None
+
+    @property
     def element_mass(self) -> float:
         """Mass of a rolling element [kg]; 0 for types that do not say."""
         return 0.0
+
+    @property
+    def rolling_material(self) -> Material:
+        """Material of the rolling elements: the rings', where no other is given."""
+        return getattr(self, "element_material", None) or self.material
+
+    @property
+    def is_hybrid(self) -> bool:
+        """Are elements and rings of different materials?"""
+        return self.rolling_material != self.material
+
+    @property
+    def of_what(self) -> str:
+        """Of what the elements are, in words, where it is something else than the rings."""
+        return f" of {self.rolling_material.name}" if self.is_hybrid else ""
+
+    @property
+    def race_modulus(self) -> float:
+        """E' of an element on a race, 2/((1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2) [Pa]."""
+        if not self.is_hybrid:
+            return self.material.plane_strain_modulus
+        return contact_modulus(self.material, self.rolling_material)
 
     @property
     def nominal_contact_angle(self) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import ClassVar
 
@@ -22,7 +22,9 @@ _OTHER_NAMES = MappingProxyType({
     r"(sheet|strip|mild).?steel": "'steel' is sheet steel of this class",
     r"(G-?|Z)?CuZn.*|H?Pb ?59-?1|CW6\d\d[A-Z]|MS ?58|C3[5-8]\d00|(?!brass$).*brass.*|messing":
     "'brass' is leaded brass, CuZn40Pb",
-    r"Si3N4|silicon.?nitride|ZrO2|zirconia|.*ceramics?": f"flexcage has no ceramics: {_OWN}",
+    r"SiN|(beta.?)?silicon.?nitride|SSN": "'Si3N4' is silicon nitride",
+    r"ZrO|zirconi(a|um).*|(3?Y-?)?TZP": "'ZrO2' is zirconia",
+    r".*ceramics?": "'Si3N4' and 'ZrO2' are the ceramics of rolling elements",
     r".*bronze.*|CuSn.*|.*alumini?um.*|titan.*|Ti-?6.*|stainless.*|AISI ?(304|316|440).*|X\d+Cr.*|"
     r"POM|PTFE|PPS.*|phenol.*|tufnol|cast.?iron|GG.*|GJS.*": _OWN,
 })  # fmt: skip
@@ -45,6 +47,9 @@ class Material:
     loss_factor: float = option(
         0.0, doc="loss factor (tan delta); metals have less than 0.001", minimum=0.0, maximum=1.0,
     )  # fmt: skip
+    expansion: float | None = quantity(
+        "1/K", None, doc="coefficient of thermal expansion, for fits", above=0.0, hashed=False
+    )
 
     @property
     def modal_damping(self) -> float:
@@ -56,6 +61,16 @@ class Material:
     def plane_strain_modulus(self) -> float:
         """E/(1 - nu^2) [Pa]."""
         return self.youngs_modulus / (1.0 - self.poisson_ratio**2)
+
+    @property
+    def compliance(self) -> float:
+        """(1 - nu^2)/E [1/Pa]: its part in a contact with another body."""
+        return (1.0 - self.poisson_ratio**2) / self.youngs_modulus
+
+
+def contact_modulus(one: Material, other: Material) -> float:
+    """E' of two bodies in contact, 2/((1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2) [Pa]."""
+    return 2.0 / (one.compliance + other.compliance)
 
 
 # Metals: Cremer and Heckl, Structure-Borne Sound (1988), as the help of SOLIDWORKS tabulates them
@@ -73,6 +88,24 @@ MATERIALS: dict[str, Material] = {
             density=7850.0,
             proof_stress=1700e6,
             source="GCr15/SAE 52100 handbook values; hardened proof stress is an assumption",
+        ),
+        Material(
+            name="Si3N4",
+            youngs_modulus=310e9,
+            poisson_ratio=0.27,
+            density=3200.0,
+            source="silicon nitride of rolling elements: SKF, Rolling bearings, hybrid bearings "
+            "(E, density); Poisson's ratio of hot-pressed Si3N4: Lily Bearing, Ceramic materials "
+            "and their properties (E 310 GPa, density 3290 kg/m^3 there)",
+        ),
+        Material(
+            name="ZrO2",
+            youngs_modulus=205e9,
+            poisson_ratio=0.3,
+            density=6040.0,
+            source="zirconia with yttria: Lily Bearing, Ceramic materials and their properties (E "
+            "200 and 210 GPa in two tables, the middle taken; density); Poisson's ratio is an "
+            "assumption",
         ),
         Material(
             name="steel",
@@ -162,6 +195,17 @@ def _polyamides() -> dict[str, Material]:
 
 
 MATERIALS.update(_polyamides())
+
+#: Coefficients of thermal expansion [1/K] and where they come from, apart from the other sources:
+#: only fits read them.
+EXPANSIONS: Mapping[str, tuple[float, str]] = MappingProxyType({
+    "GCr15": (12e-6, "SKF, Rolling bearings, materials for bearing rings and rolling elements"),
+    "steel": (12e-6, "EN 1993-1-1, 3.2.6, structural steel up to 100 degrees C"),
+    "Si3N4": (3e-6, "SKF, Rolling bearings, bearing grade silicon nitride"),
+    "ZrO2": (10.5e-6, "an assumption, of the class of 3Y-TZP (makers' sheets: 10 to 11e-6 1/K)"),
+})  # fmt: skip
+for _name, (_expansion, _) in EXPANSIONS.items():
+    MATERIALS[_name] = replace(MATERIALS[_name], expansion=_expansion)
 
 
 def register_material(material: Material) -> Material:

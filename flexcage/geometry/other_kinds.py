@@ -15,6 +15,7 @@ _HAS = (
 # without spaces, dashes and strokes, and what such a bearing is
 _DESIGNATIONS = {
     r"(HR|T)?3(0[23]|13|2[02389]|3[0-2])\d\d.*": "a tapered roller bearing",
+    r"(J?L|J?H|J?M|LL|J?LM|J?HM|HH)\d{5,6}.*": "a tapered roller bearing in inches",
     r"[BHJ]?5[1-4][1-4]\d\d.*": "a thrust ball bearing",
     r"2(13|2[23]|3[0-29]|4[01])\d\d.*": "a spherical roller bearing",
     r"29[234]\d\d.*": "a spherical roller thrust bearing",
@@ -28,6 +29,9 @@ _DESIGNATIONS = {
     "bearing",
     r"RSL1[89]\d.*": "a full complement cylindrical roller bearing without an outer ring",
     r"N[CJ]F\d+ECJ[AB].*": "a high-capacity cylindrical roller bearing, with a cage",
+    r"RNU\d{3,}.*": "a cylindrical roller bearing without an inner ring",
+    r"RN\d{3,}.*": "a cylindrical roller bearing without an outer ring",
+    r"NH\d{3,}.*": "a cylindrical roller bearing with an angle ring",
     r"NNU?\d.*": "a double row cylindrical roller bearing",
     r"(UC|YAR|YET|YEL|GYE|SA|SB)\d.*": "an insert bearing",
     r"C[2345]\d{3}.*": "a toroidal roller bearing",
@@ -44,8 +48,10 @@ _NAMES = {
     r"(cross|toroid|carb|insert|slewing|linear|plain|journal|magnetic|slide).*": "such bearings",
 }
 _CAGELESS = re.compile(r"full.?complement.*|cageless", re.IGNORECASE)
-_PAIR = re.compile(r"(7\d{3}[A-Z0-9]*?)(DB|DF|DT(?!N)|QBC|QFC|QBT|QFT|TBT|TFT|TBTX)[A-Z0-9]*")
+_PAIR = re.compile(r"(7\d{3}[A-Z0-9]*?)(DB|DF|DT(?!N)|DG|DU|QBC|QFC|QBT|QFT|TBT|TFT|TBTX)[A-Z0-9]*")
 _SETS = {"DB": "back to back", "DF": "face to face", "DT": "in tandem"}
+# digits alone, set off from what follows: "3206-2RS" has four, "32062" five
+_FOUR_DIGITS = re.compile(r"(3[0238]|5[23])\d\d[\s_/.-].*")
 
 #: What a bearing's surroundings have, by pattern of a key that people look for: what there is.
 SURROUNDINGS: Mapping[str, str] = MappingProxyType({
@@ -58,8 +64,12 @@ SURROUNDINGS: Mapping[str, str] = MappingProxyType({
     r"pre.?load.*|springs?": "flexcage has no preload between bearings: give its force as "
     "load.axial, or a negative bearing.radial_clearance of deep groove balls",
     r"(.*_)?temperatures?(_.*)?|heat.*|thermal.*|cooling": "flexcage computes no heat: give "
-    "lubricant.viscosity and the clearance at the temperature of work, and cage.temperature for "
-    "the cage's modulus",
+    "lubricant.viscosity at the temperature of work, temperatures of rings, shaft and housing in "
+    "[fit] for the clearance, and cage.temperature for the cage's modulus",
+    r"fits|fitting|seats?|interferences?|press.?fits?|tolerances?|mounting": "fits of both rings, "
+    "and what they leave of the clearance, are [fit]",
+    r"(ball|roller|rolling|ceramic).*materials?|hybrid|ceramics?": "the material of rolling "
+    'elements is bearing.element_material, as "Si3N4"',
     r"grease.*|seals?": "flexcage knows the oil of [lubricant]; grease, seals and "
     "their torque are not computed",
 })  # fmt: skip
@@ -75,8 +85,9 @@ def kind_of(designation: str) -> str:
             f"is a set of bearings{how} ({pair[2]}); flexcage has single ones: take {pair[1]}, "
             "with its share of the load and the preload in load.axial"
         )
+    two_rows = _FOUR_DIGITS.fullmatch(designation.strip())
     for pattern, kind in _DESIGNATIONS.items():
-        if re.fullmatch(pattern, name):
+        if re.fullmatch(pattern, designation.strip()[:4] if two_rows else name):
             return f"is {kind}; {_HAS}"
     return ""
 

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 #: Pictures of every run, and those of a flexible cage; ``spectra`` of a run long enough for them.
 _OF_MOTION = ("mesh", "bearing", "orbit", "histories", "spectra")
 _OF_CAGE = ("mesh", "orbit")  # of these
-_OF_STRESS = ("modes", "stress_peak", "stress_envelope", "deformation")
+_OF_STRESS = ("modes", "stress_peak", "stress_pocket", "stress_envelope", "deformation")
 _UNSTRESSED = ("mesh", "orbit", "spectra")  # that are the same with and without stress
 FORMATS = ("png", "svg", "pdf")  # of curves; scenes are .png
 
@@ -133,7 +133,7 @@ def picture_names(*, caged: bool = True, flexible: bool, resolved: bool) -> list
 #: Pictures, the animation included, that change with each value of a ``Look``.
 _LOOKS = {
     "view": ("mesh", "stress_peak", "stress_envelope", "deformation", "stress"),
-    "stress_limit": ("stress_peak", "stress_envelope", "stress"),
+    "stress_limit": ("stress_peak", "stress_pocket", "stress_envelope", "stress"),
     "scale": ("stress_peak", "deformation", "stress"),
 }
 
@@ -310,6 +310,8 @@ def _root_stress(scene: Scene) -> xarray.DataArray | None:
 
 
 def _stress(scene: Scene, s: StressPictures, look: Look) -> Iterator[Drawing]:
+    from flexcage.render.bearing_pictures import instant
+    from flexcage.render.pocket_pictures import nearest_pocket, pocket_picture
     from flexcage.render.stress_pictures import (
         deformation_picture,
         envelope_picture,
@@ -327,6 +329,13 @@ def _stress(scene: Scene, s: StressPictures, look: Look) -> Iterator[Drawing]:
     yield Drawing("stress_peak", "png", partial(
         stress_picture, s.nodes, s.cells, s.displacement, s.von_mises, time=s.time,
         scale=look.scale, **peak, **seen,
+    ))  # fmt: skip
+    yield Drawing("stress_pocket", "png", partial(
+        pocket_picture, s.nodes, s.cells, s.displacement, s.von_mises,
+        shown=instant(scene.dataset, int(np.argmin(np.abs(t - s.time)))), bearing=scene.bearing,
+        pitch_radius=float(scene.dataset["element_position"][0].sel(cyl="r").mean()),
+        pocket=nearest_pocket(s.nodes[s.peak_vertex], scene.mesh.pocket_count),
+        limit=look.stress_limit, note=scene.label,
     ))  # fmt: skip
     yield Drawing("stress_envelope", "png", partial(
         envelope_picture, s.nodes, s.cells, s.envelope, span=(t[s.settled], t[-1]), **peak, **seen,

@@ -42,7 +42,7 @@ def _of_cage(
     case: Case, mesh: CageMesh, cage: CageReduction | None, start: Start
 ) -> tuple[RunWarning, ...]:
     setup = Setup(
-        bearing=case.bearing,
+        bearing=case.mounted.bearing,
         cage=case.its_cage,
         land=case.land,
         mesh=mesh,

@@ -64,13 +64,13 @@ def scene_of(run: SummarisedRun, *, animate: bool = False, stress: bool = True) 
     return Scene(
         name=case.name,
         dataset=run.dataset,
-        bearing=case.bearing,
+        bearing=run.bearing,
         mesh=run.mesh if cage else None,
         defects=case.defects,
         loads=np.stack(
             [axial, radial * np.cos(load.direction), radial * np.sin(load.direction)], axis=1
         ),
-        clearance=case.land.clearance if cage and case.bearing.land(cage) else None,
+        clearance=case.land.clearance if cage and run.bearing.land(cage) else None,
         guide=cage.land_ring if cage else "",
         settle=case.output.settle,
         stress=_stress_pictures(run, animate) if stress and run.cage is not None else None,

@@ -17,6 +17,7 @@ from flexcage.core.output_folders import check_no_file
 from flexcage.core.timing import Stages
 from flexcage.core.units import parse
 from flexcage.core.warning import RunWarning
+from flexcage.geometry.bearing import Bearing
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.series import write_series
 from flexcage.modes.reduction import CageReduction
@@ -29,6 +30,7 @@ from flexcage.results.statistics import element_passes
 from flexcage.results.store import MemoryRunStore
 from flexcage.solve.contract import Effort
 from flexcage.stages import bent_rings
+from flexcage.static import solve_static
 from flexcage.stress.fatigue import Fatigue
 from flexcage.stress.history import StressHistory
 from flexcage.stress.recovery import StressRecovery
@@ -39,6 +41,7 @@ from flexcage.stress.sn_curves import SNCurve
 from flexcage.stress.wear import Wear, wear
 from flexcage.stress.wear_laws import WearLaw, wear_law
 from flexcage.system.begun import Start
+from flexcage.system.statics.rated import Lives
 from flexcage.system.statics.rings import SeatedRing
 
 if TYPE_CHECKING:
@@ -102,19 +105,29 @@ class RunRecord:
         return self.store.steps()
 
     @property
+    def bearing(self) -> Bearing:
+        """The bearing that ran: as the case has it, or as its [fit] leaves it."""
+        return self.case.mounted.bearing
+
+    @cached_property
+    def lives(self) -> Lives | None:
+        """Lives as the case's [life] asks, of the static solution at the start; None without."""
+        return solve_static(self.case).lives if self.case.life.given else None
+
+    @property
     def numbers(self) -> BearingNumbers:
-        return BearingNumbers.of(self.case.bearing)
+        return BearingNumbers.of(self.bearing)
 
     @cached_property
     def film_thickness(self) -> xarray.DataArray:
         """Lubricant's film [m] at every element and race, central and least (an xarray.DataArray):
         isothermal, fully flooded, by the recorded forces and speeds."""
-        return film_thickness(self.dataset, self.case.bearing, self.case.lubricant.oil)
+        return film_thickness(self.dataset, self.bearing, self.case.lubricant.oil)
 
     @cached_property
     def groove_edges(self) -> list[Edge]:
         """Contact ellipses at the edges of grooves: the worst at each; none without grooves."""
-        return groove_edges(self.case.bearing, self.dataset)
+        return groove_edges(self.bearing, self.dataset)
 
     @cached_property
     def cage_stress(self) -> RunStress:
@@ -170,7 +183,7 @@ class RunRecord:
         check_spec(used, "law")
         ds = settled(self.dataset, case.output.settle)
         windows = element_passes(ds, self.numbers)
-        return wear(ds, case.bearing, case.its_cage, case.land, used, windows)
+        return wear(ds, self.bearing, case.its_cage, case.land, used, windows)
 
     @cached_property
     def rivets(self) -> Rivets:
@@ -200,7 +213,7 @@ class RunRecord:
 
         rivets, case = self.rivets, self.case
         root = _si(root_radius, "mm", "root_radius")
-        cage, bearing = case.its_cage, case.bearing
+        cage, bearing = case.its_cage, self.bearing
         return self.stages(
             "rivet_joint", fits_of, rivets,
             cage.rivet_joint(bearing.pitch_diameter, bearing.element_count, root),

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from flexcage.core.warning import RunWarning
 from flexcage.mesh.quality import report_mesh
 from flexcage.results import mode_file
 from flexcage.results.figures.cage import SUPPORT, CageFacts, cage_rows
 from flexcage.results.figures.effort import SOLVER, TIMES
 from flexcage.results.figures.figure import rows_of
 from flexcage.results.figures.film import FILM, Lubricated
+from flexcage.results.figures.fits import FITS
+from flexcage.results.figures.life import LIFE
 from flexcage.results.figures.part import SettledRun
 from flexcage.results.figures.sections import summarise
 from flexcage.results.figures.stress import RIVETS, stress_rows
@@ -21,6 +24,7 @@ from flexcage.results.warnings import from_attrs, warnings_of
 from flexcage.results.warnings_at_end import AT_END, CAGELESS_AT_END, RunOutcome
 from flexcage.run.elastic import elastic_shape
 from flexcage.run.folder import seam_warnings
+from flexcage.system.statics.lives import questioned_lives
 
 if TYPE_CHECKING:
     from flexcage.run.record import RunRecord
@@ -32,7 +36,9 @@ def summary_of(run: RunRecord, *, stress: bool = True) -> Summary:
     case, part = run.case, part_of(run)
     summary = summarise(part)
     for rows in (
-        FILM.rows(Lubricated(part, case.bearing, case.lubricant.oil)),
+        FILM.rows(Lubricated(part, run.bearing, case.lubricant.oil)),
+        [] if case.mounting is None else FITS.rows(case.mounting),
+        [] if run.lives is None else LIFE.rows(run.lives),
         [FIGURES[edge.key].row(edge.found) for edge in run.groove_edges],
         SUPPORT.rows(case.held_in_words),
         _cage_rows(run),
@@ -66,10 +72,14 @@ def warned(summary: Summary, run: RunRecord) -> Summary:
     """The summary with its warnings."""
     case = run.case
     known = (*from_attrs(run.dataset.attrs), *seam_warnings(run.store))
+    if run.lives is not None:
+        rating = case.static.dynamic_rating or run.bearing.dynamic_rating
+        rated = questioned_lives(run.lives, rating)
+        known = (*known, *(RunWarning("life", f"{t[0].upper()}{t[1:]}") for t in rated))
     outcome = RunOutcome(
         summary=summary,
         dataset=run.dataset,
-        bearing=case.bearing,
+        bearing=run.bearing,
         cage=case.cage,
         land=case.land,
         duration=case.solver.duration,

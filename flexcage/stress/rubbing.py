@@ -10,6 +10,7 @@ import numpy as np
 
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
+from flexcage.geometry.materials import contact_modulus
 
 if TYPE_CHECKING:
     import xarray
@@ -38,8 +39,7 @@ Rub = Callable[["xarray.Dataset", Bearing, Cage], Rubbing]
 
 def modulus(bearing: Bearing, cage: Cage) -> float:
     """2/((1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2) of element and cage [Pa]."""
-    one, other = bearing.material.plane_strain_modulus, cage.warm_material.plane_strain_modulus
-    return float(2.0 / (1.0 / one + 1.0 / other))
+    return contact_modulus(bearing.rolling_material, cage.warm_material)
 
 
 def weighted(force: np.ndarray) -> np.ndarray:

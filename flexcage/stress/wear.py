@@ -59,6 +59,7 @@ class Wear:
     dataset: xarray.Dataset
     friction_check: float
     cage: str = ""  # name of the cage's material, if it is known
+    elements: str = ""  # name of the elements' material, where it is not the rings'
 
     @property
     def depth_rate(self) -> float:
@@ -133,8 +134,15 @@ class Wear:
             f"{law.material}: k = {law.coefficient * 1e9:.3g} mm^3/(N m) (Archard)",
             f"source: {law.source or 'the user'}",
             *of_other(law.material, self.cage),
+            *self._against(),
         ]
         return "\n".join([*words, *([f"assumption: {law.assumption}"] if law.assumption else [])])
+
+    def _against(self) -> list[str]:
+        """A line on elements that are not of steel."""
+        if not self.elements:
+            return []
+        return [f"the coefficient is against steel, and the elements are of {self.elements}"]
 
     __str__ = table
 
@@ -156,7 +164,8 @@ def wear(
     slid = land_rubbing(ds, cage, land.on(bearing.land(cage)))
     table = _tabled(rubbing, ds, law.coefficient, windows, slid)
     check = found / lost if lost else float("nan")
-    return Wear(law, float(t[-1] - t[0]), table, check, cage.material.name)
+    elements = bearing.rolling_material.name if bearing.is_hybrid else ""
+    return Wear(law, float(t[-1] - t[0]), table, check, cage.material.name, elements)
 
 
 def _tabled(
@@ -202,10 +211,10 @@ def land_rubbing(ds: xarray.Dataset, cage: Cage, land: LandSpec) -> tuple[float,
     if land.kind == "film":
         return float("nan"), area
     ring = "outer" if outer else "inner"
-    apart = (ds["cage_position"] - ds[f"{ring}_position"]).values[:, 1:]
+    eccentricity = (ds["cage_position"] - ds[f"{ring}_position"]).values[:, 1:]
     drift = (ds["cage_velocity"] - ds[f"{ring}_velocity"]).values[:, 1:]
-    reach = np.linalg.norm(apart, axis=1)
-    line = apart / np.where(reach > 0.0, reach, 1.0)[:, None]
+    reach = np.linalg.norm(eccentricity, axis=1)
+    line = eccentricity / np.where(reach > 0.0, reach, 1.0)[:, None]
     normal = np.abs((force * line).sum(axis=1))
     turning = ds["cage_omega"].sel(axis="x").values - (0.0 if outer else ds["inner_speed"].values)
     side = 1.0 if outer else -1.0  # the land touches ahead of the centre, or behind it

@@ -7,6 +7,7 @@ import pytest
 
 from flexcage.bearings import in_motion
 from flexcage.case import Case, keys, load_case
+from flexcage.case.keys import groups
 from flexcage.case.presets import load_preset, preset_names
 from flexcage.cli import main
 from flexcage.core.binding import flat
@@ -105,7 +106,8 @@ def test_the_keys_of_a_material_name_those_that_there_are(capsys):
 
 
 @pytest.mark.parametrize(
-    "page", ["keys_bearing.md", "keys_motion.md", "variables.md", "figures.md"]
+    "page",
+    ["keys_bearing.md", "keys_motion.md", "keys_fits.md", "variables.md", "figures.md"],
 )
 def test_a_page_is_what_its_command_prints(page, tmp_path):
     text = (EXAMPLES / page).read_text("utf-8")
@@ -114,9 +116,15 @@ def test_a_page_is_what_its_command_prints(page, tmp_path):
     assert (tmp_path / page).read_text("utf-8") == text
 
 
+def test_a_page_lists_keys_alone():
+    """What a class says of itself beside its fields is no key."""
+    every = {key.path for group in groups() for key in group.keys}
+    assert "bearing.element_material" in every and "elsewhere" not in every
+
+
 def test_the_pages_hold_every_section():
     text = "".join(
-        (EXAMPLES / f"keys_{part}.md").read_text("utf-8") for part in ("bearing", "motion")
+        (EXAMPLES / f"keys_{part}.md").read_text("utf-8") for part in ("bearing", "motion", "fits")
     )
     named = re.findall(r"^Printed by `flexcage keys (.*)`", text, re.MULTILINE)
     assert sorted(" ".join(named).split()) == sorted({g.section for g in keys.groups()})

@@ -64,7 +64,8 @@ def test_what_flexcage_has_not_is_declined_where_people_look(reader, text, words
         ("CuZn40Pb2", "'brass' is leaded brass"),
         ("DC04", "'steel' is sheet steel"),
         ("Brass", "the nearest known one is 'brass'"),
-        ("Si3N4", "flexcage has no ceramics: give its values: {name ="),
+        ("silicon nitride", "'Si3N4' is silicon nitride"),
+        ("zirconia", "'ZrO2' is zirconia"),
         ("CuSn8", "give its values: {name ="),
     ],
 )

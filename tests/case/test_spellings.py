@@ -183,6 +183,14 @@ SPELLINGS: dict[str, tuple[tuple[float | str, str], ...]] = {
         (2e-8, "20 1/GPa | 20 GPa^-1 | 20 GPa⁻¹ | 20/GPa | 2e-8 1/Pa | 0.02 mm^2/N"),
         (OTHER, "20 GPa | 20 1/s"),
     ),
+    "kinematic viscosity": (
+        (32e-6, "32 mm^2/s | 32 mm²/s | 32 cSt | 32e-6 m^2/s | 0.32 St"),
+        (OTHER, "32 mPa*s | 32 mm/s"),
+    ),
+    "thermal expansion": (
+        (12e-6, "12e-6 1/K | 12e-6/K | 1.2e-5 K^-1 | 12 um/(m*K) | 12 µm/m/K | 12e-6 1/°C"),
+        (OTHER, "12 um/m | 12 K"),
+    ),
     "viscosity": (
         (
             0.01,

@@ -27,12 +27,18 @@ MOST_LINES = 300
 CASES = {
     "README.md": ("",),
     "examples/cases.md": ("N1013", "", "", "15x37x10", "", "N1013", "N1013", "N1013", "7010C-PI"),
+    "examples/fits.md": ("",),
     "meshes/README.md": ("N1013",),
     "flexcage/cages/README.md": ("15x37x10",),
     "flexcage/modes/README.md": ("N1013",),
 }
-# a static case, a study, a map
-NOT_CASES = {"examples/cases.md": 1, "examples/studies.md": 1, "examples/unknowns.md": 1}
+# a static case, a study, a map, a spectrum
+NOT_CASES = {
+    "examples/cases.md": 1,
+    "examples/studies.md": 1,
+    "examples/unknowns.md": 1,
+    "examples/fits.md": 1,
+}
 
 
 def name_of(page):

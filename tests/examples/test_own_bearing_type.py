@@ -110,3 +110,9 @@ def test_a_type_whose_elements_are_there_runs(tmp_path):
     assert (tmp_path / "out" / "images" / "bearing.png").is_file()
     wrong = run("-o", "other", "--set", "load.axial=-60 N")
     assert wrong.returncode == 2 and "where magneto bearings have no shoulder" in wrong.stderr
+
+
+def test_it_has_no_fits(tmp_path):
+    done = static(tmp_path, "--use", str(FILE), "--set", "fit.shaft=k5")
+    assert done.returncode == 2
+    assert "[fit] is given, but a spring bearing does not say how its races follow" in done.stderr

@@ -46,7 +46,7 @@ def test_its_pictures_are_all_drawn(folder, tmp_path):
     paths = run.draw(tmp_path)
     assert {path.name for path in paths} == {
         "mesh.png", "modes.png", "bearing.png", "orbit.png", "histories.png", "stress_peak.png",
-        "stress_envelope.png", "deformation.png",
+        "stress_pocket.png", "stress_envelope.png", "deformation.png",
     }  # fmt: skip
     assert all(path.stat().st_size > 20_000 for path in paths)
 

@@ -71,7 +71,7 @@ def test_the_command_draws_what_is_named(folder, tmp_path):
     ("look", "names"),
     [
         (["--view", "30 deg"], ["mesh", "stress_peak", "stress_envelope", "deformation"]),
-        (["--stress-limit", "20 MPa"], ["stress_peak", "stress_envelope"]),
+        (["--stress-limit", "20 MPa"], ["stress_peak", "stress_pocket", "stress_envelope"]),
         (["--scale", "20"], ["stress_peak", "deformation"]),
         (["--scale", "20", "--only", "orbit"], ["orbit"]),
     ],

@@ -15,6 +15,8 @@ from flexcage.study.map_report import map_text, write_map
 from flexcage.study.maps import Map, MapResults, load_map, run_map
 from flexcage.study.outputs import check_outputs, never_negative
 from flexcage.study.own import register_outputs
+from flexcage.study.plan import make_plan
+from flexcage.study.results import StudyResults
 from flexcage.study.unknowns import Unknown
 
 OWN = Path(__file__).with_name("my_outputs.py")
@@ -74,6 +76,23 @@ def test_a_map_runs_every_point_under_every_condition_with_starts_of_its_own(don
     assert results.seconds > 0.0 and 0.0 <= results.noise("my_last_cage_place", "fast")
 
 
+def test_an_unknown_may_be_how_hard_the_cage_is_pushed(tmp_path):
+    """Its pushes take the place of the map's; starts still differ in direction."""
+    push = """
+[[unknowns]]
+name = "push"
+path = "start.push"
+range = ["10 mm/s", "1000 mm/s"]
+scale = "log"
+reason = "a test"
+"""
+    spec = load_map(written(tmp_path, MAP + push))
+    cases = [make_plan(spec.study()).case(found) for found in make_plan(spec.study()).cases]
+    pushes = sorted({c.start.push for c in cases})
+    np.testing.assert_allclose(pushes, np.sort(0.01 * 100.0 ** spec.shares[:, 2]), rtol=1e-5)
+    assert len({c.start.seed for c in cases}) == 4
+
+
 def test_a_map_that_grows_computes_only_what_is_new(done):
     spec, results, cases = done
     table = {**vars(spec), "count": 4}
@@ -98,6 +117,18 @@ def test_the_command_goes_on_with_a_map(done, tmp_path, capsys):
     assert main(["study", "map", str(folder.parent / "map.toml"), "-o", str(folder)]) == 0
     assert "8 done" in capsys.readouterr().out
     assert {case: case.stat().st_mtime_ns for case in cases} == cases
+
+
+def test_the_command_computes_some_points_on_another_mesh(done, tmp_path, capsys):
+    _, results, _ = done
+    file, other = results.study.folder.path.parent / "map.toml", tmp_path / "fine"
+    command = ["study", "map", str(file), "-o", str(other), "--workers", "1"]
+    assert main([*command, "--points", "1", "--fineness", "medium"]) == 0
+    assert "4 done" in capsys.readouterr().out  # two conditions of two starts
+    assert StudyResults(other).about.base["mesh"]["fineness"] == "medium"
+    with pytest.raises(SystemExit):
+        main([*command, "--points", "1,x"])
+    assert "should be whole numbers, as 0,3,17" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import asin, cos, pi, sin, sqrt
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from flexcage.bearings.ball.bearing import BallBearing, clearance_at
 from flexcage.core.spec import quantity
-from flexcage.geometry.bearing import type_name
+from flexcage.geometry.bearing import Bearing, type_name
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,6 +44,13 @@ class AngularContactBallBearing(BallBearing):
     @property
     def clearance(self) -> float:
         return clearance_at(self.free_contact_angle, self.groove_distance)
+
+    def approach(self, mounted: Bearing) -> float:
+        assert isinstance(mounted, AngularContactBallBearing)
+        return self.groove_offset[0] - mounted.groove_offset[0]
+
+    def _as_clearance(self, clearance: float) -> dict[str, Any]:
+        return {"contact_angle": None, "radial_clearance": clearance}
 
     @property
     def groove_offset(self) -> tuple[float, float]:

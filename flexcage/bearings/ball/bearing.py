@@ -8,10 +8,10 @@ Bearing Analysis, 2 and 6; ISO/TS 16281:2008, 4.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import acos, cos, inf, pi, sin, sqrt
-from typing import ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -26,9 +26,13 @@ from flexcage.geometry.bearing import (
 )
 from flexcage.geometry.film import Film, Oil, both_races, point_film, rolling_entrainment
 from flexcage.geometry.hertz import PointContact
+from flexcage.geometry.life.iso281 import BALLS, Endurance
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.other_kinds import SURROUNDINGS
 from flexcage.geometry.spall import BY_RACE, Spall
+
+if TYPE_CHECKING:
+    from flexcage.geometry.fits.changed import Changed
 
 SHOULDER = 0.2  # of the ball's diameter: a shoulder's height where none is given
 
@@ -47,6 +51,7 @@ class BallBearing(Bearing):
     places: ClassVar[tuple[str, ...]] = ("race", "pocket")
     sliced: ClassVar[tuple[str, ...]] = ("race",)
     elsewhere: ClassVar[Mapping[str, str]] = {**BY_RACE, **SURROUNDINGS}
+    endurance: ClassVar[Endurance | None] = BALLS
     carries_axial_load: ClassVar[bool] = True
     one_sided: ClassVar[bool] = False  # are there shoulders for one direction of load alone?
 
@@ -84,7 +89,10 @@ class BallBearing(Bearing):
     inner_spall: Spall = option(Spall(), doc="a pit of the inner race, which turns with its ring")
     outer_spall: Spall = option(Spall(), doc="a pit of the outer race")
     ball_spot: BallSpot = option(BallSpot(), doc="a pit or a flat on a ball")
-    material: Material = option(MATERIALS["GCr15"], doc="material of rings and balls")
+    material: Material = option(MATERIALS["GCr15"], doc="material of the rings, and of the balls")
+    element_material: Material | None = option(
+        None, doc="material of the balls, as Si3N4 (default: bearing.material)"
+    )
 
     @property
     def free_contact_angle(self) -> float:
@@ -107,11 +115,6 @@ class BallBearing(Bearing):
     @property
     def element_mass(self) -> float:
         return self.ball_mass
-
-    @property
-    def clearance(self) -> float:
-        """Radial internal clearance Pd [m]."""
-        raise self._lacks("clearance")
 
     @property
     def groove_offset(self) -> tuple[float, float]:
@@ -145,7 +148,7 @@ class BallBearing(Bearing):
 
     @cached_property
     def ball_mass(self) -> float:
-        return self.material.density * pi / 6.0 * self.ball_diameter**3
+        return self.rolling_material.density * pi / 6.0 * self.ball_diameter**3
 
     @cached_property
     def ball_inertia(self) -> float:
@@ -156,6 +159,25 @@ class BallBearing(Bearing):
         """Radius [m] about the bearing's axis at which balls roll on the "inner" or "outer" race at
         the nominal contact angle."""
         return 0.5 * self.pitch_diameter * (1.0 + (self.gamma if ring == "outer" else -self.gamma))
+
+    @property
+    def race_diameters(self) -> tuple[float, float]:
+        return 2.0 * self.race_radius("inner"), 2.0 * self.race_radius("outer")
+
+    def in_place(self, changed: Changed) -> BallBearing:
+        """Grooves move with their races, and grow as warm rings do; so do balls."""
+        return replace(
+            self,
+            pitch_diameter=self.pitch_diameter + 0.5 * (changed.inner_race + changed.outer_race),
+            ball_diameter=self.ball_diameter + changed.element,
+            inner_groove_radius=self.inner_groove_radius * (1.0 + changed.inner_strain),
+            outer_groove_radius=self.outer_groove_radius * (1.0 + changed.outer_strain),
+            **self._as_clearance(changed.clearance),
+        )
+
+    def _as_clearance(self, clearance: float) -> dict[str, Any]:
+        """Fields that say a radial clearance [m]."""
+        return {"radial_clearance": clearance}
 
     def race_reach(self, ring: str) -> float:
         """Half of the width [m] of the "inner" or "outer" ring's groove between its shoulders, a
@@ -237,12 +259,21 @@ class BallBearing(Bearing):
     @cached_property
     def contact_curvatures(self) -> tuple[float, float]:
         """Curvature [1/m] of the surface of contact across the rolling direction, inner and outer
-        race: the mean of the ball's and the groove's (Harris)."""
+        race: the mean of the ball's and the groove's (Harris), of two materials nearer to that of
+        the stiffer one, as either yields by its share of (1 - nu^2)/E."""
         inner, outer = (
-            0.5 * (2.0 / self.ball_diameter + 1.0 / radius)
+            self._stays * 2.0 / self.ball_diameter + (1.0 - self._stays) * 1.0 / radius
+            if self.is_hybrid
+            else 0.5 * (2.0 / self.ball_diameter + 1.0 / radius)
             for radius in (self.inner_groove_radius, self.outer_groove_radius)
         )
         return inner, outer
+
+    @property
+    def _stays(self) -> float:
+        """Share of the ball's own shape that is left in a contact: of what yields, the groove's."""
+        ring, ball = self.material.compliance, self.rolling_material.compliance
+        return ring / (ring + ball)
 
     @cached_property
     def rolling_heights(self) -> tuple[float, float]:
@@ -279,7 +310,7 @@ class BallBearing(Bearing):
     def in_words(self) -> str:
         return (
             f"{self.name_and_size} with {self.ball_count} balls of "
-            f"{typeset(self.ball_diameter, 'mm')}, free contact angle "
+            f"{typeset(self.ball_diameter, 'mm')}{self.of_what}, free contact angle "
             f"{typeset(self.free_contact_angle, 'deg', digits=4)}, radial clearance "
             f"{typeset(self.clearance, 'um', digits=4)}; "
             f"the grooves' radii are {self.inner_conformity:.4g} (inner) and "
@@ -295,7 +326,7 @@ def race_contact(bearing: BallBearing, conformity: float, side: float) -> PointC
     return PointContact(
         rolling=radius * (1.0 + side * bearing.gamma),
         transverse=2.0 * radius * conformity / (2.0 * conformity - 1.0),
-        modulus=bearing.material.plane_strain_modulus,
+        modulus=bearing.race_modulus,
     )
 
 

@@ -21,7 +21,9 @@ class DeepGrooveBallBearing(BallBearing):
     kind: ClassVar[str] = "deep groove ball bearing"
 
     type: str = type_name("deep_groove_ball")
-    radial_clearance: float = quantity("um", 0.0, doc="operating radial internal clearance Pd")
+    radial_clearance: float = quantity(
+        "um", 0.0, doc="operating radial clearance Pd; with [fit] before mounting"
+    )
 
     @property
     def free_contact_angle(self) -> float:

@@ -8,11 +8,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from flexcage.bearings.ball.bearing import BallBearing
-from flexcage.bearings.ball.neighbours import besides
+from flexcage.bearings.ball.neighbours import ball_ball_data
 from flexcage.bodies.floating_frame import BodyData, no_body
 from flexcage.cages.round_pocket.cage import BallCage
 from flexcage.cages.round_pocket.interface import BallCageInterface
 from flexcage.contacts import laws
+from flexcage.contacts.ball_ball import BallBallContact
 from flexcage.contacts.ball_pocket import (
     CYLINDER,
     SPHERE,
@@ -20,13 +21,13 @@ from flexcage.contacts.ball_pocket import (
     ball_pocket_work,
     no_ball_pockets,
 )
-from flexcage.contacts.beside import BallsBeside
 from flexcage.contacts.groove import Groove
 from flexcage.contacts.land import NONE, LandData, no_land, with_other
 from flexcage.contacts.race import race_work
 from flexcage.contacts.spec import Contacts, LandSpec, Lubricant
 from flexcage.contacts.uneven import is_uneven, spread, uneven_race
 from flexcage.geometry.hertz import PointContact
+from flexcage.geometry.materials import contact_modulus
 from flexcage.geometry.spot import marked
 from flexcage.system.bodies import (
     bodies_of,
@@ -59,7 +60,7 @@ class BallModel(NamedTuple):
     inner: Groove
     outer: Groove
     pocket: BallPockets
-    beside: BallsBeside
+    neighbours: BallBallContact
     spot: SpottedBalls
     land: LandData
 
@@ -83,7 +84,7 @@ def groove_of(
     wave, spall = uneven_race(bearing, ring, bearing.race_radius(ring), contact.rolling)
     sides = getattr(bearing, f"{ring}_spall").sides(radius)
     long = float(contact.semi_axes(1.0)[0])
-    felt = spread(contact.rolling, bearing.material.plane_strain_modulus)
+    felt = spread(contact.rolling, bearing.race_modulus)
     return Groove(
         side=side,
         axial=axial,
@@ -113,12 +114,9 @@ def pocket_contact(bearing: BallBearing, cage: BallCage, radius: float) -> Point
     """
     ball = 0.5 * bearing.ball_diameter
     fit = 1.0 / (1.0 / ball - 1.0 / radius)
-    sides = (
-        (1.0 - material.poisson_ratio**2) / material.youngs_modulus
-        for material in (bearing.material, cage.warm_material)
-    )
     along = fit if cage.pocket_shape == "spherical" else ball
-    return PointContact(rolling=along, transverse=fit, modulus=2.0 / sum(sides))
+    modulus = contact_modulus(bearing.rolling_material, cage.warm_material)
+    return PointContact(rolling=along, transverse=fit, modulus=modulus)
 
 
 def _pockets(
@@ -188,7 +186,7 @@ def build_ball_model(
             _pockets(bearing, cage, contacts, interface) if cage
             else no_ball_pockets(bearing.ball_count)
         ),
-        beside=besides(bearing, contacts, radius_of_balls),
+        neighbours=ball_ball_data(bearing, contacts, radius_of_balls),
         spot=SpottedBalls(marked(bearing.ball_count, bearing.ball_spot.balls)),
         land=(
             _lands(bearing, cage, contacts.land, lubricant, interface.land) if cage else no_land()

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import pi
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -22,9 +22,13 @@ from flexcage.geometry.bearing import (
     type_name,
 )
 from flexcage.geometry.film import Film, Oil, both_races, line_film, rolling_entrainment
+from flexcage.geometry.life.iso281 import ROLLERS, Endurance
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.other_kinds import SURROUNDINGS
 from flexcage.geometry.spall import BY_RACE, Spall
+
+if TYPE_CHECKING:
+    from flexcage.geometry.fits.changed import Changed
 
 BY_DESIGN = (
     f"of cylindrical roller bearings flexcage has the designs {designs.ALL}, single-row: give "
@@ -82,6 +86,7 @@ class RollerBearing(Bearing):
     cage_spec: ClassVar[Spec] = WindowCage
     element: ClassVar[str] = "roller"
     family: ClassVar[str] = "cylindrical_roller"
+    endurance: ClassVar[Endurance | None] = ROLLERS
     elsewhere: ClassVar[Mapping[str, str]] = {
         "(inner_|outer_)?(ribs?|flanges?)(_.*)?": BY_RIBS,
         **BY_RACE,
@@ -100,7 +105,9 @@ class RollerBearing(Bearing):
         "mm", doc="length Lwe of a roller without end chamfers", above=0.0
     )
     roller_count: int = option(doc="number Z of rollers", minimum=3)
-    radial_clearance: float = quantity("um", 0.0, doc="operating radial internal clearance Pd")
+    radial_clearance: float = quantity(
+        "um", 0.0, doc="operating radial clearance Pd; with [fit] before mounting"
+    )
     design: str = option(
         "N", choices=tuple(designs.DESIGNS),
         doc="ribs: N two on the inner ring, NU on the outer; NJ as NU and one on the inner, NUP as "
@@ -122,7 +129,10 @@ class RollerBearing(Bearing):
         doc="axial load on the inner ring that a single counter rib carries (NJ, NF)",
     )  # fmt: skip
     profile: RollerProfile = option(RollerProfile(), doc="roller profile")
-    material: Material = option(MATERIALS["GCr15"], doc="material of rings and rollers")
+    material: Material = option(MATERIALS["GCr15"], doc="material of the rings, and of the rollers")
+    element_material: Material | None = option(
+        None, doc="material of the rollers, as Si3N4 (default: bearing.material)"
+    )
     roller_scatter: float = quantity(
         "um", 0.0, doc="standard deviation of roller diameters (seeded)", minimum=0.0
     )
@@ -168,7 +178,8 @@ class RollerBearing(Bearing):
 
     @cached_property
     def roller_mass(self) -> float:
-        return self.material.density * 0.25 * pi * self.roller_diameter**2 * self.roller_length
+        density = self.rolling_material.density
+        return density * 0.25 * pi * self.roller_diameter**2 * self.roller_length
 
     @cached_property
     def roller_inertia(self) -> tuple[float, float]:
@@ -185,6 +196,30 @@ class RollerBearing(Bearing):
     @property
     def element_diameter(self) -> float:
         return self.roller_diameter
+
+    @property
+    def clearance(self) -> float:
+        return self.radial_clearance
+
+    @property
+    def race_diameters(self) -> tuple[float, float]:
+        return self.inner_race_diameter, self.outer_race_diameter
+
+    def in_place(self, changed: Changed) -> RollerBearing:
+        """Races are kept as those of zero clearance; ribs move with the race of their ring."""
+        half = 0.5 * (changed.clearance - changed.initial)
+        grown = {"inner": changed.inner_race, "outer": changed.outer_race}
+        design = designs.DESIGNS[self.design]
+        counter = self.counter_rib_diameter
+        return replace(
+            self,
+            inner_race_diameter=self.inner_race_diameter + changed.inner_race + half,
+            outer_race_diameter=self.outer_race_diameter + changed.outer_race - half,
+            roller_diameter=self.roller_diameter + changed.element,
+            radial_clearance=changed.clearance,
+            rib_diameter=self.rib_diameter + grown[design.guide],
+            counter_rib_diameter=None if counter is None else counter + grown[design.other],
+        )
 
     @property
     def element_length(self) -> float:
@@ -288,7 +323,7 @@ class RollerBearing(Bearing):
 
     def race_film(self, force: np.ndarray, speed: np.ndarray, oil: Oil) -> Film:
         """The load spread evenly over the effective length: a profile's ends are not resolved."""
-        roller, modulus = 0.5 * self.roller_diameter, self.material.plane_strain_modulus
+        roller, modulus = 0.5 * self.roller_diameter, self.race_modulus
         films = []
         for k, (race, side) in enumerate(
             ((self.inner_race_radius, 1.0), (self.outer_race_radius, -1.0))
@@ -311,7 +346,7 @@ class RollerBearing(Bearing):
     def in_words(self) -> str:
         return (
             f"{self.name_and_size} with {self.roller_count} "
-            f"rollers of {typeset(self.roller_diameter, 'mm')}, radial clearance "
+            f"rollers of {typeset(self.roller_diameter, 'mm')}{self.of_what}, radial clearance "
             f"{typeset(self.radial_clearance, 'um')}."
             f"{self.inner_spall.in_words('inner')}{self.outer_spall.in_words('outer')}"
             f"{self.roller_spot.in_words()}"

@@ -10,7 +10,7 @@ import numpy as np
 from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
 from flexcage.bearings.cylindrical_roller.designs import DESIGNS
 from flexcage.bearings.cylindrical_roller.lands import limits
-from flexcage.bearings.cylindrical_roller.neighbours import rollers_beside
+from flexcage.bearings.cylindrical_roller.neighbours import roller_roller_data
 from flexcage.bearings.cylindrical_roller.ribs import rib_height
 from flexcage.bearings.cylindrical_roller.variables import END_POINTS
 from flexcage.bodies.floating_frame import BodyData, no_body
@@ -28,7 +28,7 @@ from flexcage.contacts.pocket_wall import (
 )
 from flexcage.contacts.race import RaceSide, race_work
 from flexcage.contacts.rib import RibData
-from flexcage.contacts.roller_beside import RollersBeside
+from flexcage.contacts.roller_roller import RollerRollerContact
 from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT
 from flexcage.contacts.uneven import is_uneven, spread, uneven_race
@@ -66,7 +66,7 @@ class RollerModel(NamedTuple):
     rib: RibData  # of the inner ring
     outer_rib: RibData
     pocket: PocketData
-    beside: RollersBeside
+    neighbours: RollerRollerContact
     spot: SpottedRollers
     land: LandData
 
@@ -87,7 +87,7 @@ def _race_side(bearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool
     radius = bearing.inner_race_radius if inner else bearing.outer_race_radius
     rw = 0.5 * bearing.roller_diameter
     equivalent = rw * radius / (radius + sign * rw)
-    modulus = bearing.material.plane_strain_modulus  # E' = 2/(2 (1-nu^2)/E)
+    modulus = bearing.race_modulus
     wave, spall = uneven_race(bearing, "inner" if inner else "outer", radius, equivalent)
     stiffness = laws.iso_line_stiffness(bearing.effective_length, modulus)
     return RaceSide(
@@ -134,8 +134,8 @@ def rib_points(bearing: RollerBearing, ring: str) -> np.ndarray:
 
 def rib_stiffness(bearing: RollerBearing) -> float:
     """Stiffness [N/m] of a roller's end on one rib."""
-    steel = elastic_constants(bearing.material)
-    return laws.flat_end_stiffness(0.45 * 0.5 * bearing.roller_diameter, steel, steel)
+    roller, rib = elastic_constants(bearing.rolling_material), elastic_constants(bearing.material)
+    return laws.flat_end_stiffness(0.45 * 0.5 * bearing.roller_diameter, roller, rib)
 
 
 def crossbeam_width(bearing: RollerBearing, cage: WindowCage) -> float:
@@ -174,16 +174,17 @@ def own_coordinates(shapes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def _pocket_laws(bearing, cage, contacts: Contacts, interface: CageInterface) -> np.ndarray:
     """Normal laws (2, N_NORMAL) of a slice of a crossbeam and of a point of a side beam."""
     rw, flexible = 0.5 * bearing.roller_diameter, interface.modes.shape[-1] > 0
-    steel, wall = elastic_constants(bearing.material), elastic_constants(cage.warm_material)
+    roller = elastic_constants(bearing.rolling_material)
+    wall = elastic_constants(cage.warm_material)
     k, e = laws.pocket_line_law(
         radius=rw,
         length=bearing.effective_length,
-        roller=steel,
+        roller=roller,
         wall=wall,
         depth=0.5 * crossbeam_width(bearing, cage),
         patch_half_width=interface.patch_half_width if flexible else 0.0,
     )
-    k_end = laws.flat_end_stiffness(0.9 * rw, steel, wall)
+    k_end = laws.flat_end_stiffness(0.9 * rw, roller, wall)
     return np.stack([
         laws.normal_parameters(contacts.pocket.normal, k, e, parts=contacts.pocket.slices),
         laws.normal_parameters(
@@ -290,7 +291,9 @@ def build_roller_model(
             _pocket_data(bearing, cage, contacts, interface) if cage
             else no_pockets(bearing.roller_count, 0.5 * bearing.roller_length)
         ),
-        beside=rollers_beside(bearing, contacts, *slice_grid(bearing, contacts.race.slices)),
+        neighbours=roller_roller_data(
+            bearing, contacts, *slice_grid(bearing, contacts.race.slices)
+        ),
         spot=SpottedRollers(marked(bearing.roller_count, spot.rollers), spot.angle),
         land=_land(bearing, cage, contacts, lubricant, interface) if cage else no_land(),
     )  # fmt: skip

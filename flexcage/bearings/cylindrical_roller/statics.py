@@ -41,8 +41,7 @@ def rollers_of(
     from flexcage.contacts.laws import iso_line_stiffness  # its kernels take seconds to load
 
     places, drop = slice_grid(bearing, contacts.race.slices)
-    modulus = bearing.material.plane_strain_modulus
-    stiffness = iso_line_stiffness(bearing.effective_length, modulus)
+    stiffness = iso_line_stiffness(bearing.effective_length, bearing.race_modulus)
     cage = epicyclic(
         element_diameter=bearing.roller_diameter,
         pitch_diameter=bearing.pitch_diameter,
@@ -180,7 +179,7 @@ class Rollers:
         radius, half = 0.5 * b.roller_diameter, 0.5 * b.effective_length
         races = np.array([b.inner_race_radius, b.outer_race_radius])
         curved = radius * races / (races + np.array([radius, -radius]))
-        modulus = 0.5 * b.material.plane_strain_modulus
+        modulus = 0.5 * b.race_modulus
         width = np.sqrt(4.0 * line * curved / (pi * modulus))  # Johnson 4.43
         loaded = slices > 0.0
         return ElementLoads(

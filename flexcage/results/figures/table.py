@@ -18,7 +18,9 @@ from flexcage.results.figures.effort import SOLVER, TIMES
 from flexcage.results.figures.energy import ENERGY
 from flexcage.results.figures.figure import STATISTIC, TEXT, Figure
 from flexcage.results.figures.film import FILM
+from flexcage.results.figures.fits import FITS
 from flexcage.results.figures.forces import CONTACTS, FORCES, NEXT
+from flexcage.results.figures.life import LIFE
 from flexcage.results.figures.motion import MOTION
 from flexcage.results.figures.part import OwnFigures
 from flexcage.results.figures.rings import INNER, OUTER
@@ -35,8 +37,9 @@ from flexcage.results.registry import whose
 
 #: The sections of a summary, in order.
 _TABLES = (
-    STATISTICS, SPEEDS, SLIP, MOTION, FORCES, CONTACTS, NEXT, INNER, OUTER, ENERGY, FILM, SUPPORT,
-    CAGE, PINCH, MODES, STRESS, STRESS_TIME, RIVETS, RIVETS_TIME, DAMAGE, TRACKS, SOLVER, TIMES,
+    STATISTICS, SPEEDS, SLIP, MOTION, FORCES, CONTACTS, NEXT, INNER, OUTER, ENERGY, FILM, FITS,
+    LIFE, SUPPORT, CAGE, PINCH, MODES, STRESS, STRESS_TIME, RIVETS, RIVETS_TIME, DAMAGE, TRACKS,
+    SOLVER, TIMES,
 )  # fmt: skip
 
 

@@ -17,6 +17,7 @@ from flexcage.system.statics.state import StaticState
 from flexcage.system.statics.table import html_of, table_of
 
 FORMAT = 1
+_IF_ANY = ("mounting", "lives")  # of cases that ask for them
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,8 +46,10 @@ class StaticSolution(StaticState):
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values; what is not a number or infinite is None."""
-        names = [f.name for f in dataclasses.fields(self) if f.name != "rings"]
+        names = [f.name for f in dataclasses.fields(self) if f.name not in (*_IF_ANY, "rings")]
         fields = {name: _plain(getattr(self, name)) for name in names}
+        more = {name: getattr(self, name) for name in _IF_ANY}
+        fields |= {name: _plain(value) for name, value in more.items() if value is not None}
         if self.rings:
             fields["rings"] = {ring.side: _plain(ring.figures()) for ring in self.rings}
         return {"format": FORMAT, "flexcage": __version__, **fields}

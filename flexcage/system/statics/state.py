@@ -7,7 +7,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from flexcage.geometry.film import Film
+from flexcage.geometry.fits.mounting import Mounting
 from flexcage.system.statics.elements import ElementLoads
+from flexcage.system.statics.rated import Lives
 from flexcage.system.statics.rings import BentRing
 
 
@@ -51,6 +53,8 @@ class StaticState:
     held: str = ""  # how the inner ring is held, in words
     rings: tuple[BentRing, ...] = ()  # that bend
     outer: np.ndarray = field(default_factory=lambda: np.zeros(5))
+    mounting: Mounting | None = None  # of the bearing that this is, if fits were given
+    lives: Lives | None = None  # as they are quoted, if the case asks how
 
     @property
     def largest_force(self) -> float:

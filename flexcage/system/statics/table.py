@@ -8,10 +8,13 @@ import numpy as np
 
 from flexcage.core import html
 from flexcage.core.listing import aligned, wrapped
+from flexcage.geometry.fits.telling import clearance_lines, clearance_note
+from flexcage.system.statics.life_table import lives_lines, spectrum_lines
 from flexcage.system.statics.rings import BentRing
 from flexcage.system.statics.state import StaticState
 
 _AXES = ("x", "y", "z", "tilt y", "tilt z")
+_SPECTRUM = "load spectrum: each point by its own static solution; all by Palmgren and Miner"
 _SMALL = 1e-9  # of the largest of its kind: shown as 0
 
 
@@ -26,7 +29,13 @@ def table_of(s: StaticState, width: int = 0) -> str:
         return f"{wrapped(note, width=width)}\n{grid(lines, 'r')}"
 
     parts = [wrapped(_head(s), width=width), grid(_ring_lines(s)), grid(_stiffness_lines(s))]
-    parts += [aligned(_life_lines(s), width=width), noted(_element_note(s), _element_lines(s))]
+    if s.mounting is not None:
+        note = wrapped(clearance_note(s.mounting), width=width)
+        parts.insert(1, f"{note}\n{grid(clearance_lines(s.mounting))}")
+    parts += [aligned(_life_lines(s), width=width)]
+    if s.lives is not None and s.lives.points:
+        parts.append(noted(_SPECTRUM, spectrum_lines(s.lives)))
+    parts += [noted(_element_note(s), _element_lines(s))]
     parts += [noted(_bent_note(ring), _bent_lines(ring)) for ring in s.rings]
     parts += [grid(_support_lines(ring), "r") for ring in s.rings if len(ring.bears)]
     parts += [wrapped(f"Warning: {text}", width=width) for text in s.warnings]
@@ -43,6 +52,8 @@ def html_of(s: StaticState) -> str:
         html.paragraphs(held),
         _html_grid(_ring_lines(s)),
         html.table([*_peaks(s), *_life_lines(s)]),
+        *_clearance_html(s),
+        *_spectrum_html(s),
         html.folded("Stiffness", _html_grid(_stiffness_lines(s))),
         html.folded("Elements", elements),
         *(
@@ -50,6 +61,20 @@ def html_of(s: StaticState) -> str:
             for ring in s.rings
         ),
     )
+
+
+def _clearance_html(s: StaticState) -> list[str]:
+    if s.mounting is None:
+        return []
+    note = html.paragraphs(clearance_note(s.mounting).split("\n"))
+    return [html.folded("Clearance", note + _html_grid(clearance_lines(s.mounting)))]
+
+
+def _spectrum_html(s: StaticState) -> list[str]:
+    if s.lives is None or not s.lives.points:
+        return []
+    grid = _html_grid(spectrum_lines(s.lives), sides="r")
+    return [html.folded("Load spectrum", html.paragraphs([_SPECTRUM]) + grid)]
 
 
 def _html_grid(lines: list[list[str]], *, sides: str = "lr") -> str:
@@ -115,7 +140,7 @@ def _life_lines(s: StaticState) -> list[list[str]]:
     ]
     if isfinite(s.life_hours()):
         lines.append(["", f"{s.life_hours():.6g} h at this speed"])
-    return lines
+    return lines if s.lives is None else lines + lives_lines(s.lives)
 
 
 def _element_note(s: StaticState) -> str:
