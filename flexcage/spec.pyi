@@ -27,6 +27,7 @@ from flexcage.modes.spec import DampingBand as DampingBand
 from flexcage.modes.spec import ModesSpec as ModesSpec
 from flexcage.results.instrument import LaserSetup as LaserSetup
 from flexcage.results.options import OutputOptions as OutputOptions
+from flexcage.results.rim import Rim as Rim
 from flexcage.solve.options import SolverOptions as SolverOptions
 from flexcage.stress.sn_curves import SNCurve as SNCurve
 from flexcage.stress.wear_laws import WearLaw as WearLaw

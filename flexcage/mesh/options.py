@@ -16,8 +16,8 @@ class MeshOptions:
 
     A named fineness gives about the same number of elements a pocket whatever the cage's size:
     on the N1013 cage 12,000 (coarse), 36,000 (medium) and 89,000 (fine) nodes when quadratic,
-    and 88,000 vertices with 375,000 linear tetrahedra (paper, the density of paper 000); on the
-    7010C's polyimide cage 20,000, 36,000 and 93,000 nodes, and 63,000 vertices.
+    and 88,000 vertices with 375,000 linear tetrahedra (paper, the density of a published study);
+    on the 7010C's polyimide cage 20,000, 36,000 and 93,000 nodes, and 63,000 vertices.
     A file is used as it is: defects are not applied to it but must be in it.
     """
 

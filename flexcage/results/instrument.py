@@ -5,12 +5,12 @@ Two sensors look along -y and -z at the cage's outside, in a plane across the be
 the radial sensors another displacement than its centre has: by ``plane`` times the slope of its
 axis. The set-up, and the equations of ``by_tilt_angles``, are those of "Measurement and Dynamic
 Analysis of the Centroid Trajectories of Angular-Contact Ball Bearing Cages"; ``invert`` solves for
-the cage that shows just these readings.
+the cage that shows just these readings, if its rim is round.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import cos, pi, sin
 from typing import TYPE_CHECKING, Any
 
@@ -21,12 +21,14 @@ from flexcage.core.errors import InputError
 from flexcage.core.units import mm
 from flexcage.results.metrics import of_cage
 from flexcage.results.rig_file import CHANNELS, FARTHEST
+from flexcage.results.rim import Line, Rim
 
 if TYPE_CHECKING:
     import xarray
 
 ITERATIONS = 20  # of the inversion; it gains five digits in each
 _LARGEST = 10.0  # m, of a cage
+POINTS = 8  # of Gauss and Legendre across a spot
 _LEAST_SPREAD = 0.05  # of the circle: 3 deg between lines through sensors
 
 
@@ -47,6 +49,8 @@ class LaserSetup:
     resolution: float = 0.0  # readings are whole multiples of it; 0: none
     reach: float = np.inf  # readings beyond +-reach are not a number
     rate: float | None = None  # readings a second, Hz; None: as many as the run has samples
+    rim: Rim = field(default_factory=Rim)  # of the cage's outside: round, unless it is given
+    spot: float = 0.0  # width of the light's spot around the cage; a reading is the mean over it
 
     def __post_init__(self) -> None:
         self._check_numbers()
@@ -64,11 +68,21 @@ class LaserSetup:
                 where="circle",
                 value=self.circle,
             )
+        if self.spot > self.radius:
+            raise InputError(
+                f"The spot of the radial sensors is {mm(self.spot)} wide, more than the cage's "
+                f"radius of {mm(self.radius)}; give a smaller one.",
+                where="spot",
+                value=self.spot,
+            )
+        if not isinstance(self.rim, Rim):
+            raise _of_setup("rim", repr(self.rim), "a flexcage.spec.Rim")
+        self.rim.check_on(self.radius)
 
     def _check_numbers(self) -> None:
         """Refuse values that are no numbers, or of other units than SI."""
         positive = ("radius", "half_width", "circle", "reach", "rate")
-        for name in (*positive, "plane", "repeatability", "resolution"):
+        for name in (*positive, "plane", "repeatability", "resolution", "spot"):
             value = getattr(self, name)
             if value is None and name == "rate":
                 continue
@@ -125,21 +139,28 @@ def readings(
     setup: LaserSetup,
     *,
     face: np.ndarray | None = None,
+    mark: np.ndarray | None = None,
     seed: int | None = None,
 ) -> np.ndarray:
     """Readings (n, 5) [m] in the order of ``CHANNELS`` of a cage at ``centre`` (n, 3) with unit
     ``axis`` (n, 3).
 
-    Lines of sight meet the cylinder and the plane exactly. ``face`` (n, 3) is the unit normal of
-    the end face, where it is not square to the axis (``run_out``). ``seed`` adds the sensors'
-    noise.
+    Lines of sight meet the rim and the plane exactly; a spot takes the mean of several. ``face``
+    (n, 3) is the unit normal of the end face, where it is not square to the axis (``run_out``).
+    ``mark`` (n, 3) is the unit vector from the axis to pocket 0 (``mark_of_run``), without which a
+    rim that is not round raises InputError. ``seed`` adds the sensors' noise.
     """
+    if mark is None:
+        if not setup.rim.round:
+            raise InputError(
+                "The rim is not round, so that readings follow the cage's turn; give mark, the "
+                "direction of pocket 0 (mark_of_run).",
+                where="mark",
+            )
+        mark = np.broadcast_to(np.eye(3)[1], np.shape(centre))
     out = np.empty((len(centre), 5))
     for k, component in enumerate((1, 2)):
-        start = np.zeros(3)
-        start[0] = setup.plane
-        direction = np.eye(3)[component]
-        out[:, k] = _cylinder(start, direction, centre, axis, setup.radius) - setup.radius
+        out[:, k] = _radial(component, centre, axis, mark, setup)
     normal = axis if face is None else face
     end = centre + setup.half_width * axis  # where the axis leaves the end face
     for k, (y, z) in enumerate(setup.spots):
@@ -152,16 +173,20 @@ def readings(
     return np.where(np.abs(out) <= setup.reach, out, np.nan)
 
 
-def _cylinder(
-    start: np.ndarray, direction: np.ndarray, centre: np.ndarray, axis: np.ndarray, radius: float
+def _radial(
+    component: int, centre: np.ndarray, axis: np.ndarray, mark: np.ndarray, setup: LaserSetup
 ) -> np.ndarray:
-    """Distance (n,) along a line at which it leaves each of the cylinders."""
-    from_centre = start - centre
-    d = direction - (axis @ direction)[:, None] * axis
-    o = from_centre - np.einsum("ni,ni->n", from_centre, axis)[:, None] * axis
-    a, b = (d * d).sum(axis=1), (d * o).sum(axis=1)
-    root = np.sqrt(b * b - a * ((o * o).sum(axis=1) - radius**2))
-    return (root - b) / a
+    """Reading (n,) [m] of the sensor that looks along y (1) or z (2): mean over its spot, less that
+    of a centred round cage."""
+    places, weights = np.polynomial.legendre.leggauss(POINTS if setup.spot else 1)
+    out = np.zeros(len(centre))
+    for place, weight in zip(0.5 * setup.spot * places, 0.5 * weights):
+        start = np.zeros(3)
+        start[0], start[3 - component] = setup.plane, place
+        line = Line(start, np.eye(3)[component])
+        seen = setup.rim.distances(line, centre, axis, mark, setup.radius)
+        out += weight * (seen - np.sqrt(setup.radius**2 - place**2))
+    return out
 
 
 def slopes(values: np.ndarray, setup: LaserSetup) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -172,7 +197,8 @@ def slopes(values: np.ndarray, setup: LaserSetup) -> tuple[np.ndarray, np.ndarra
 
 
 def invert(values: np.ndarray, setup: LaserSetup) -> tuple[np.ndarray, np.ndarray]:
-    """Centre (n, 3) [m] and unit axis (n, 3) of the cage that shows these readings (n, 5) [m].
+    """Centre (n, 3) [m] and unit axis (n, 3) of the round cage that shows these readings (n, 5)
+    [m]: what its rim is out by is taken for motion, as on a rig.
 
     InputError for readings of another shape or unit.
     """
@@ -200,7 +226,7 @@ def _ideal(setup: LaserSetup) -> LaserSetup:
 
 
 def by_tilt_angles(values: np.ndarray, setup: LaserSetup) -> np.ndarray:
-    """Centre (n, 2) as (y, z) [m] by the paper's equation: each sensor in a plane of its own.
+    """Centre (n, 2) as (y, z) [m] by the published equation: each sensor in a plane of its own.
 
     d = Y - R (1 - cos(theta))/cos(theta) - plane tan(theta), theta the tilt that the end face
     shows in the sensor's plane: exact for a cage that tilts in that plane alone. InputError as
@@ -215,7 +241,8 @@ def by_tilt_angles(values: np.ndarray, setup: LaserSetup) -> np.ndarray:
 
 def measured(ds: xarray.Dataset, setup: LaserSetup, *, seed: int | None = None) -> np.ndarray:
     """Readings (n, 5) [m] that the set-up would take of a run's cage, at the set-up's rate."""
-    return readings(*of_run(ds, rate=setup.rate), setup, seed=seed)
+    mark = mark_of_run(ds, rate=setup.rate)
+    return readings(*of_run(ds, rate=setup.rate), setup, mark=mark, seed=seed)
 
 
 def of_run(ds: xarray.Dataset, *, rate: float | None = None) -> tuple[np.ndarray, np.ndarray]:
@@ -232,6 +259,19 @@ def of_run(ds: xarray.Dataset, *, rate: float | None = None) -> tuple[np.ndarray
     taken = sample_times(ds, rate=rate)
     centre, axis = (_at(taken, ds["time"].values, values) for values in (centre, axis))
     return centre, axis / np.linalg.norm(axis, axis=1, keepdims=True)
+
+
+def mark_of_run(ds: xarray.Dataset, *, rate: float | None = None) -> np.ndarray:
+    """Unit vector (n, 3) from the axis of a run's cage to its pocket 0, at the instants of
+    ``of_run``."""
+    turn = Rotation.from_quat(of_cage(ds, "cage_quaternion").values, scalar_first=True)
+    mark = turn.as_matrix()[:, :, 1]
+    if rate is None:
+        return mark
+    mark = _at(sample_times(ds, rate=rate), ds["time"].values, mark)
+    _, axis = of_run(ds, rate=rate)
+    mark = mark - (mark * axis).sum(axis=1)[:, None] * axis
+    return mark / np.linalg.norm(mark, axis=1, keepdims=True)
 
 
 def run_out(ds: xarray.Dataset, *, total: float, circle: float) -> np.ndarray:

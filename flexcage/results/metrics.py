@@ -204,8 +204,8 @@ def centre_speed(ds: xarray.Dataset, *, low_pass: float | None = None) -> np.nda
 def velocity_deviation(ds: xarray.Dataset, *, low_pass: float | None = None) -> float:
     """Standard deviation over mean of the cage centre's speed, of ``centre_speed``.
 
-    The figure depends on sampling and filter, so state both (paper 004: 20 kHz and 2 kHz). NaN for
-    a centre that rests, and where it cannot be filtered.
+    The figure depends on sampling and filter, so state both (20 kHz and 2 kHz, say). NaN for a
+    centre that rests, and where it cannot be filtered.
     """
     speed = centre_speed(ds, low_pass=low_pass)
     mean = float(speed.mean())

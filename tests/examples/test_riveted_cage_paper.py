@@ -11,10 +11,9 @@ import pytest
 import flexcage
 from flexcage.case import load_extension
 from flexcage.stress.riveted_joint import Peak
-from flexcage.study import load_map, load_study
+from flexcage.study import load_study
 from flexcage.study.own import OWN
 from flexcage.study.plan import make_plan
-from flexcage.study.verdicts import FAILS, HOLDS, UNDECIDED
 
 PAPERS = Path(__file__).parents[2] / "examples" / "papers"
 FOLDER = PAPERS / "riveted_cage"
@@ -45,55 +44,39 @@ def scripts(paper):
     sys.modules.pop("predict", None)
 
 
-def test_readings_maps_and_the_design_are_plans(paper):
-    """Every condition that a claim compares is in the reading or map that decides it."""
-    results = sys.modules["paper_results"]
-    there = {}
-    for column, (file, _) in {"better model": (paper.readings, ""), **paper.alone}.items():
-        study = load_study(FOLDER / file)
-        there[column] = {p["label"] for p in study.axes[0].points}
-        assert study.repeat.count >= 8
-    for column, files in paper.maps.items():
-        for file in files:
-            spec = load_map(FOLDER / file)
-            assert all(len(u.reason) > 8 for u in spec.unknowns)
-            there[column] = {c["label"] for c in spec.conditions}
-            assert len(make_plan(spec.study((0,))).cases) == len(there[column])
-    for claim in paper.claims:
-        assert results.conditions_of(claim) <= there[paper.decided_by[claim.key]]
+def test_the_design_is_that_of_table_3(paper):
+    assert "design.toml" in paper.studies
     assert len(make_plan(load_study(FOLDER / "design.toml")).cases) == 49 * 4
-    for column, file in paper.beside.items():
-        study = load_study(FOLDER / file)
-        assert {p["label"] for p in study.axes[0].points} == there[column]
-        assert study.repeat.count == 8
-    screen, whole = (load_map(FOLDER / f"{name}_6747.toml") for name in ("screen", "map_cage"))
-    assert screen.unknowns == whole.unknowns and screen.design == "morris"
-    for asked in paper.weighed["screen_6747.toml"]:
-        assert asked.output in screen.outputs
-        assert asked.condition in {c["label"] for c in screen.conditions}
 
 
-def test_claims_judge_numbers_of_known_order(paper):
-    """Numbers as the paper has them hold its claims; others do not."""
-    force = {"base": 25.12, "Rp 3.43": 29.66, "Rp 3.49": 28.73, "w 8.0": 31.2, "w 5.9": 25.3,
-             "t 0.7": 26.0, "t 1.0": 25.9, "f_i 0.505": 27.0, "f_i 0.525": 24.0, "f_e 0.515": 27.0,
-             "f_e 0.530": 24.0, "Pd 5": 24.0, "Pd 20": 27.0}  # fmt: skip
-    slip = {"base": 0.0100, "Rp 3.43": 0.0095, "Rp 3.49": 0.0105, "w 8.0": 0.0102, "w 5.9": 0.0101,
+def test_findings_judge_numbers_of_known_order(paper):
+    """Numbers as the paper has them hold its findings; others do not."""
+    force = {"base": 25.12, "Rp 3.43": 29.66, "Rp 3.49": 28.73, "Rp 3.60": 30.0, "w 8.0": 31.2,
+             "w 4.4": 30.8, "t 0.7": 26.0, "t 1.0": 25.9, "f_i 0.505": 27.0, "f_i 0.525": 24.0,
+             "f_e 0.515": 27.0, "f_e 0.530": 24.0, "Pd 5": 24.0, "Pd 20": 27.0}  # fmt: skip
+    slip = {"base": 0.0100, "Rp 3.43": 0.0095, "Rp 3.49": 0.0105, "w 8.0": 0.0102, "w 4.4": 0.0101,
             "t 0.7": 0.0100, "t 1.0": 0.0101, "modified 9000": 0.0113,
             "original 9000": 0.0184}  # fmt: skip
-    tilt = {"Rp 3.43": 3.0, "base": 2.0, "Rp 3.49": 1.0, "w 8.0": 1.0, "w 5.9": 3.0}
-    good = {"pocket_peak.turn_max": force, "slip": slip, "psi": tilt, "fillet": slip | force}
+    tilt = {"Rp 3.43": 3.0, "base": 2.0, "Rp 3.49": 1.0, "w 8.0": 1.0, "w 4.4": 3.0}
+    ends = {"root_tight": 300.0, "eave_tight": 400.0, "root_loose": 270.0, "eave_loose": 50.0}
+    good = {"pocket_turn_largest": force, "slip_size": slip, "psi": tilt, "rivet": slip | force}
+    good |= {name: {"base": value} for name, value in ends.items()}
 
     def holds(found):
         def at(output, condition):
             return found[output].get(condition, force.get(condition, 0.0))
 
-        return {c.key for c in paper.claims if c.holds(at)}
+        return {f"{c.key} {part}" for c in paper.claims for part, f in c.parts.items()
+                if f.holds(at)}  # fmt: skip
 
-    keys = {c.key for c in paper.claims}
-    assert keys - holds(good) == {"001-4b"}  # its rivets' stress is least at 0.8 mm here
-    ahead = good | {"slip": {c: -v for c, v in slip.items()}}
-    assert not holds(ahead) & {"001-2", "001-8", "001-9"}
+    every = {f"{c.key} {part}" for c in paper.claims for part in c.parts}
+    # rivets' stress is least at 0.8 mm here, though lower at 1.0 than at 0.7 mm
+    assert every - holds(good) == set()
+    same = good | {"slip_size": dict.fromkeys(slip, 0.03), "root_loose": {"base": 40.0}}
+    assert every - holds(same) == {
+        "001-2 slip", "001-3b slip", "001-8 slip", "001-9 modified, 1.13 %",
+        "001-9 original, 1.84 %", "001-7 root with play",
+    }  # fmt: skip
 
 
 def test_predictions_are_the_rows_that_are_asked_for(scripts):
@@ -131,9 +114,9 @@ def test_powers_of_a_slip_over_speed(scripts):
 @pytest.mark.parametrize(
     "eave, root, small, outcomes",
     [
-        (300e6, 200e6, 100e6, (HOLDS, HOLDS, HOLDS)),
-        (200e6, 300e6, 100e6, (FAILS, HOLDS, HOLDS)),
-        (201e6, 200e6, 198e6, (UNDECIDED, HOLDS, UNDECIDED)),
+        (300e6, 200e6, 100e6, ("holds", "holds", "holds")),
+        (200e6, 300e6, 100e6, ("fails", "holds", "holds")),
+        (201e6, 200e6, 198e6, ("undecided", "holds", "undecided")),
     ],
 )
 def test_what_becomes_of_the_fits(scripts, eave, root, small, outcomes):
@@ -175,11 +158,12 @@ def test_a_load_stresses_the_heads_roots(paper):
     load_extension(FOLDER / "outputs.py")
     outputs = sys.modules[OWN["fillet"].compute.__module__]
     found = OWN["fillet"].compute(run)
-    (result,) = run.rivet_joint("3 um", mesh=outputs.MESH)
+    tight, result = run.rivet_joint("-3 um", "3 um", mesh=outputs.MESH)
     assert found["fillet"] == pytest.approx(result.range_at("root")[0], rel=1e-9)
-    assert found["fillet_peak"] == pytest.approx(
-        max(p.stress for p in result.peaks() if p.place == "root"), rel=1e-9
-    )
+    for name, joint in (("tight", tight), ("loose", result)):
+        peaks = {p.place: p.stress for p in joint.peaks()}
+        for place in ("root", "eave"):
+            assert found[f"{place}_{name}"] == pytest.approx(peaks[place], rel=1e-9)
     rigid = SimpleNamespace(case=SimpleNamespace(riveted=False))
     assert all(np.isnan(v) for v in OWN["fillet"].compute(rigid).values())
 

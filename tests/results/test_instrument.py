@@ -6,6 +6,7 @@ Known readings are in ``flexcage verify laser_inversion``.
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,7 @@ from flexcage.results.instrument import (
     LaserSetup,
     by_tilt_angles,
     invert,
+    mark_of_run,
     measured,
     of_run,
     readings,
@@ -24,6 +26,7 @@ from flexcage.results.instrument import (
     sample_times,
 )
 from flexcage.results.rig_file import load_readings, load_times
+from flexcage.results.rim import Rim
 
 SETUP = LaserSetup(radius=33e-3, half_width=16e-3, plane=15e-3, circle=31e-3)
 
@@ -74,6 +77,10 @@ def test_sensors_that_look_past_the_cage_are_refused():
         ({"angles": (0, 120, 240)}, "angles is .0, 120, 240., but should be in radians"),
         ({"angles": (0.0, 0.0, 3.0)}, "should be apart, so that the sensors tell every tilt"),
         ({"angles": (0.0, 2.0)}, "should be three numbers in radians"),
+        ({"spot": -1e-3}, "spot is -0.001, but should be a number in SI that is not negative"),
+        ({"spot": 40e-3}, "spot of the radial sensors is 40 mm wide, more than .* radius of 33 mm"),
+        ({"rim": 80e-6}, "rim is '8e-05', but should be a flexcage.spec.Rim"),
+        ({"rim": Rim(lobes=50, amplitude=80e-6)}, "has 50 lobes of 0.08 mm, which are steeper than"),
     ],
 )
 def test_a_setup_in_other_units_or_without_a_plane_is_refused(wrong, words):
@@ -112,6 +119,121 @@ def test_a_face_that_runs_out_turns_with_the_cage():
     angle = 20.0 * np.pi * t[:, None] - np.array(SETUP.angles)
     np.testing.assert_allclose(out[:, 2:], -10e-6 * np.cos(angle), atol=1e-12)
     assert np.abs(out[:, :2]).max() < 1e-15
+
+
+@pytest.mark.parametrize(
+    ("wrong", "words"),
+    [
+        ({"lobes": 1}, "lobes is 1, but should be a whole number from 2 on; one lobe is an eccen"),
+        ({"lobes": 2.5}, "lobes is 2.5, but should be a whole number"),
+        ({"amplitude": 80.0}, "amplitude is 80.0, but should be a length in metres"),
+        ({"amplitude": "80 um"}, "amplitude is '80 um', but should be a length in metres"),
+        ({"eccentricity": -1e-6}, "eccentricity is -1e-06, but should be a length in metres"),
+        ({"phase": 90.0}, "phase is 90.0, but should be in radians"),
+    ],
+)
+def test_a_rim_in_other_units_is_refused(wrong, words):
+    with pytest.raises(InputError, match=words):
+        Rim(**wrong)
+
+
+def spinning(angle):
+    """Marks (n, 3) of a cage that has turned by these angles about x."""
+    return np.column_stack([np.zeros_like(angle), np.cos(angle), np.sin(angle)])
+
+
+TURN = 2.0 * np.pi * np.arange(360) / 360.0  # one turn of a cage
+STILL = np.zeros((360, 3)), np.tile([1.0, 0.0, 0.0], (360, 1))  # centred, square
+
+
+@pytest.mark.parametrize("lobes", [2, 3, 5])
+def test_lobes_show_at_their_number_times_the_cages_frequency(lobes):
+    """A centred cage that turns: each laser shows a cos(n (angle under it - phase))."""
+    rim = Rim(lobes=lobes, amplitude=50e-6, phase=0.4)
+    out = readings(*STILL, replace(SETUP, rim=rim), mark=spinning(TURN))
+    for k, laser in enumerate((0.0, 0.5 * np.pi)):  # azimuth that it looks along
+        expected = 50e-6 * np.cos(lobes * (laser - TURN - 0.4))
+        np.testing.assert_allclose(out[:, k], expected, atol=1e-12)
+        lines = np.abs(np.fft.rfft(out[:, k])) / 180.0
+        assert lines[lobes] == pytest.approx(50e-6)
+        assert np.delete(lines, lobes).max() < 1e-12
+    assert np.abs(out[:, 2:]).max() < 1e-15
+
+
+def test_two_lobes_widen_the_radius_of_a_circle():
+    """Y = r cos s + a cos 2s and Z = r sin s - a cos 2s of a centre that goes round with the cage:
+    their radius is r + sqrt(2) a cos 2s cos(s + 45 deg) to first order, off by 2 a^2/r at most."""
+    r, a = 250e-6, 5e-6
+    centre = r * spinning(TURN)
+    setup = replace(SETUP, rim=Rim(lobes=2, amplitude=a))
+    out = readings(centre, STILL[1], setup, mark=spinning(TURN))
+    away = np.hypot(out[:, 0], out[:, 1])
+    expected = r + np.sqrt(2.0) * a * np.cos(2.0 * TURN) * np.cos(TURN + 0.25 * np.pi)
+    bent = r**2 / (2.0 * SETUP.radius)  # a laser that sees a round cage beside its top
+    np.testing.assert_allclose(away, expected, atol=2.0 * a**2 / r + 2.0 * bent)
+    assert np.ptp(away) > 2.0 * np.ptp(np.hypot(*readings(centre, STILL[1], SETUP)[:, :2].T))
+
+
+def test_an_eccentric_rim_goes_round_with_the_cage():
+    """It is the centre that the lasers and their inversion find."""
+    setup = replace(SETUP, rim=Rim(eccentricity=30e-6, eccentricity_phase=0.7))
+    out = readings(*STILL, setup, mark=spinning(TURN))
+    rim = 30e-6 * spinning(TURN + 0.7)
+    np.testing.assert_allclose(invert(out, setup)[0], rim, atol=1e-12)
+    np.testing.assert_allclose(out[:, :2], rim[:, 1:], atol=(30e-6) ** 2 / SETUP.radius)
+
+
+@pytest.mark.parametrize("lobes", [2, 12, 30])
+def test_a_spot_takes_the_mean_of_lobes(lobes):
+    """Over a width w on a radius R lobes are shown by sin(s)/s of their height, s = n w/2R."""
+    spot, amplitude = 2e-3, 10e-6
+    setup = replace(SETUP, rim=Rim(lobes=lobes, amplitude=amplitude), spot=spot)
+    out = readings(*STILL, setup, mark=spinning(TURN))
+    s = 0.5 * lobes * spot / SETUP.radius
+    share = np.abs(np.fft.rfft(out[:, 0]))[lobes] / 180.0 / amplitude
+    assert share == pytest.approx(np.sin(s) / s, rel=1e-3)  # chord for arc: w^2/24R^2
+    assert np.abs(readings(*STILL, replace(SETUP, spot=spot))).max() < 1e-15
+    moved = np.array([[0.0, 0.1e-3, 0.0]])
+    shown = readings(moved, STILL[1][:1], replace(SETUP, spot=spot))
+    assert shown[0, 0] == pytest.approx(0.1e-3, rel=1e-9)
+
+
+def test_a_tilt_adds_the_same_to_a_rim_that_is_not_round():
+    """The deflection error plane * tan(tilt) stays beside a lobe of 20 um."""
+    axis = np.repeat(tilted(1e-3), 360, axis=0)
+    aside = np.cross(axis, np.array([0.0, 0.0, 1.0]))
+    across = np.cross(aside, axis)
+    unit = [v / np.linalg.norm(v, axis=1, keepdims=True) for v in (-aside, across)]
+    mark = np.cos(TURN)[:, None] * unit[0] + np.sin(TURN)[:, None] * unit[1]
+    rim = Rim(lobes=3, amplitude=20e-6)
+    out = readings(STILL[0], axis, replace(SETUP, rim=rim), mark=mark)
+    plain = readings(STILL[0], axis, SETUP)
+    np.testing.assert_allclose(plain[:, 0], 15e-6 + 0.5e-6 * 33e-3, atol=1e-9)
+    np.testing.assert_allclose(out[:, 0] - plain[:, 0], 20e-6 * np.cos(3.0 * TURN), atol=2e-9)
+
+
+def test_a_rim_that_is_not_round_needs_the_cages_turn():
+    setup = replace(SETUP, rim=Rim(amplitude=20e-6))
+    with pytest.raises(InputError, match="give mark, the direction of pocket 0"):
+        readings(*STILL, setup)
+
+
+def test_a_run_shows_its_lobes_at_any_rate():
+    """A run's cage that spins at 10 Hz: the same lobes at its samples and at 7 kHz."""
+    t = np.arange(10_001) / 1e5
+    zero = np.zeros_like(t)
+    half = 10.0 * np.pi * t
+    at = (("time", "axis"), np.zeros((10_001, 3)))
+    turned = (("time", "quaternion"), np.column_stack([np.cos(half), np.sin(half), zero, zero]))
+    ds = xr.Dataset({"cage_position": at, "outer_position": at, "cage_quaternion": turned},
+                    coords={"time": t})  # fmt: skip
+    rim = Rim(lobes=2, amplitude=40e-6)
+    for rate in (None, 7e3):
+        setup = replace(SETUP, rim=rim, rate=rate)
+        angle = 20.0 * np.pi * sample_times(ds, rate=rate)
+        np.testing.assert_allclose(mark_of_run(ds, rate=rate), spinning(angle), atol=1e-7)
+        shown = measured(ds, setup)[:, 0]
+        np.testing.assert_allclose(shown, 40e-6 * np.cos(2.0 * angle), atol=1e-10)
 
 
 def test_readings_of_a_rig(tmp_path):

@@ -1,199 +1,221 @@
-"""The paper's Figures 6 to 11 from what was computed, and its tables laid beside."""
+"""The paper's Figures 6 to 11 and what its Tables 3 to 5 hold, laid out as the paper has them."""
 
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 from claims import SPEEDS
-from outputs import PLANE, at_plane, axial, setup_of
-from paper_figures import bands, claim_map, stress
-from paper_page import Picture, Table
+from judging.pictures import bands, starts
+from matplotlib.axes import Axes
+from outputs import PLANE, at_plane, axial, form_of, seen
+from sketch import draw_sketch
 
+from flexcage import Run
 from flexcage.render import sheet
 from flexcage.results import instrument, metrics
 
 PRINTED = tomllib.loads((Path(__file__).with_name("printed.toml")).read_text("utf-8"))
 MM = 1e3
-BETTER, PRINTED_MODEL = "better model", "as printed"  # columns of readings
-TEST, MODEL = "map of the test", "map of the model"  # columns of maps
-COLOURS = {TEST: sheet.BLUE, MODEL: sheet.ORANGE}
-MARKS = {BETTER: ("o", sheet.GREEN), PRINTED_MODEL: ("s", sheet.PURPLE)}
+TEST, MODEL = "test", "model"  # names of samples
+CAGE, RUN_UP, SIMULATED = "test cage", "run-up", "as printed"  # columns of readings
 AXIS = "10000"  # rpm, of Figures 6 to 8
+PLACES = {s: float(s) for s in SPEEDS}
+READINGS = {CAGE: (sheet.GREEN, "o"), RUN_UP: ("#b07aa1", "D"), SIMULATED: (sheet.VERMILION, "s")}
+SAMPLES = {TEST: sheet.BLUE, MODEL: sheet.ORANGE}
+SIDE, TOP = 330, 110  # px
+
+Axial = tuple[np.ndarray, np.ndarray]  # time [ms] and motion [mm]
 
 
-def tracks(run):
-    """Centre and axis (n, 3) of the settled cage, readings (n, 5), and what equations 7 and 8 make
-    of them (n, 2)."""
-    ds = metrics.settled(run.dataset, run.case.output.settle)
-    centre, axis = instrument.of_run(ds)
-    setup = setup_of(run.case.cage)
-    shown = instrument.readings(centre, axis, setup, seed=1)
-    return centre, axis, shown, instrument.by_tilt_angles(shown, setup), ds["time"].values
+class Track:
+    """The settled cage of a run, what lasers show, and what the paper's equations make of it; mm
+    and ms."""
+
+    def __init__(self, run: Run) -> None:
+        ds = metrics.settled(run.dataset, run.case.output.settle)
+        centre, axis = instrument.of_run(ds)
+        shown, solved = seen(run.case, ds, form_of(run.case))
+        self.time = (ds["time"].values - ds["time"].values[0]) * MM
+        self.centre, self.origin = centre * MM, at_plane(centre, axis, PLANE) * MM
+        self.shown, self.solved, self.axial = shown * MM, solved * MM, axial(shown) * MM
 
 
-def whole_record(reading, speed: str) -> float:
-    """Difference of whirl radii [m] of the first start from its very beginning, centred, on."""
-    centre, _ = instrument.of_run(reading.run(speed).dataset)
-    return float(np.ptp(np.hypot(centre[:, 1], centre[:, 2])))
+def reach_of(*tracks: np.ndarray) -> float:
+    """Limit [mm] of axes that show tracks (n, 2) whole: a multiple of 0.1 mm."""
+    most = max(float(np.nanmax(np.abs(yz))) for yz in tracks)
+    return max(0.1, float(np.ceil(10.0 * most) / 10.0))
 
 
-def draw(computed, folder: Path) -> list[Picture]:
-    """All pictures, in the paper's order."""
-    better, printed = (computed.readings[c] for c in (BETTER, PRINTED_MODEL))
-    motion(better.run(AXIS), folder / "figure_6_7.png", "Cage motion at 10,000 rpm, better model")
-    simulated(printed.run(AXIS), folder / "figure_8.png")
-    orbits(computed, folder / "figure_9_10.png")
-    ratios(computed, folder / "figure_11.png")
-    differences(computed, folder / "tables_4_5.png")
-    title, of = "Where the whirl grows and tends to a circle", "the map of the test"
-    claim_map(computed, TEST, "003-3", folder / "map_003_3.png", title, of)
-    return [
-        Picture("figure_6_7.png", "Figures 6 and 7: readings and centre at 10,000 rpm",
-                "First start of the better model. Left: what the radial lasers show, and the "
-                "centre by the paper's equations. Right: an axial reading and equation 10."),
-        Picture("figure_8.png", "Figure 8: simulated motion at 10,000 rpm",
-                "First start of the paper's own model: the cage's axis in the sensors' plane, its "
-                "centre, and its axial motion."),
-        Picture("figure_9_10.png", "Figures 9 and 10: the centre in space",
-                "Above the better model, below the paper's own, first start at each speed; x "
-                "along the axis, gravity down."),
-        Picture("figure_11.png", "Figure 11: whirl ratio over speed",
-                "Dots are starts, bands the middle 80 % of points of a map. The paper prints no "
-                "numbers here: its curves fall to 10,000 rpm and rise."),
-        Picture("tables_4_5.png", "Tables 4 and 5: differences of whirl radii",
-                "Crosses and triangles are the numbers that the paper prints."),
-        Picture("map_003_3.png", "Map of claim 003-3",
-                "Blue points hold, red ones do not; lines are shares over quarters of a range."),
-        *stress(
-            computed, folder, "Stress of the cage at 10,000 rpm",
-            "Better model with a flexible cage, 60 ms: equivalent stress at its largest. "
-            "The paper has no such figure: its cage is rigid.",
-        ),
-    ]  # fmt: skip
-
-
-def motion(run, path: Path, title: str) -> Path:
-    """Figures 6 and 7: radial readings and the solved centre, an axial reading and equation 10."""
-    _, _, shown, solved, time = tracks(run)
-    with sheet.style():
-        figure = sheet.new_figure(1500, 560)
-        sheet.heading(figure, title, "mm; as lasers show it (6) and as the equations solve it (7)")
-        for k, (yz, name) in enumerate(((shown[:, :2], "6a measured"), (solved, "7a solved"))):
-            _across(figure, (90 + k * 370, 150, 290, 290), yz, name)
-        for k, (x, name) in enumerate(((shown[:, 2], "6b one axial reading"),
-                                       (axial(shown), "7b centre"))):  # fmt: skip
-            _along(figure, (880, 150 + k * 175, 560, 115), time, x, name)
-        return sheet.save(figure, path)
-
-
-def simulated(run, path: Path) -> Path:
-    """Figure 8: origin, centre, axial motion."""
-    centre, axis, _, _, time = tracks(run)
-    with sheet.style():
-        figure = sheet.new_figure(1500, 560)
-        sheet.heading(figure, "Simulated motion at 10,000 rpm, the paper's own model", "mm")
-        _across(figure, (90, 150, 290, 290), at_plane(centre, axis, PLANE), "8a origin")
-        _across(figure, (460, 150, 290, 290), centre[:, 1:], "8b centre")
-        _along(figure, (880, 150, 560, 290), time, centre[:, 0], "8c axial displacement")
-        return sheet.save(figure, path)
-
-
-def _across(figure, place, yz: np.ndarray, name: str) -> None:
+def across(ax: Axes, yz: np.ndarray, name: str, reach: float) -> None:
     """A track (n, 2) of y and z across the axis, gravity down."""
-    ax = sheet.axes_at(figure, place)
-    ax.plot(yz[:, 1] * MM, -yz[:, 0] * MM, color=sheet.BLUE, lw=0.5)
-    ax.set(xlim=(-0.4, 0.4), ylim=(-0.4, 0.4), title=name)
+    ax.plot(yz[:, 1], -yz[:, 0], color=sheet.BLUE, lw=0.5)
+    ax.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal", xlabel="z / mm",
+           ylabel="-y / mm")  # fmt: skip
+    ax.set_title(name, loc="left", fontsize=10)
 
 
-def _along(figure, place, time: np.ndarray, x: np.ndarray, name: str) -> None:
-    """A motion (n,) over time in ms."""
-    ax = sheet.axes_at(figure, place)
-    ax.plot((time - time[0]) * 1e3, x * MM, color=sheet.BLUE, lw=0.6)
-    ax.set_title(f"{name}, over ms", loc="left")
+def along(ax: Axes, time: np.ndarray, x: np.ndarray, name: str, wide: float) -> None:
+    """An axial motion, about its mean, over time."""
+    ax.plot(time, x - np.nanmean(x), color=sheet.BLUE, lw=0.7)
+    ax.set(xlim=(time[0], time[-1]), ylim=(-wide, wide), xlabel="time / ms", ylabel="x / mm")
+    ax.set_title(name, loc="left", fontsize=10)
 
 
-def orbits(computed, path: Path) -> Path:
-    """Figures 9 and 10: the centre in space at each speed."""
-    side, left, top = 280, 130, 130
+Row = tuple[Mapping[str, np.ndarray], str, Axial]  # radial tracks, and an axial motion with a name
+
+
+def rows_of(
+    path: Path, heading: tuple[str, str], rows: Sequence[Row], reach: float, wide: float
+) -> str:
+    """Rows of radial tracks and an axial motion, as the paper has them, on one scale; the file's
+    name."""
+    left, gap, most = 90, 90, max(len(radial) for radial, _, _ in rows)
     with sheet.style():
-        figure = sheet.new_figure(left + 4 * (side + 50), top + 2 * (side + 60))
-        sheet.heading(figure, "The cage's centre in space", "mm")
-        for i, column in enumerate((BETTER, PRINTED_MODEL)):
-            sheet.text_at(figure, 20, top + i * (side + 60) + 0.5 * side, column)
-            for k, speed in enumerate(SPEEDS):
-                centre = tracks(computed.readings[column].run(speed))[0] * MM
-                place = (left + k * (side + 50), top + i * (side + 60), side, side)
-                ax = sheet.axes_at(figure, place, projection="3d")
-                ax.plot(centre[:, 0], centre[:, 2], -centre[:, 1], color=sheet.BLUE, lw=0.5)
-                ax.set(xlim=(-0.4, 0.4), ylim=(-0.4, 0.4), zlim=(-0.4, 0.4))
-                ax.set_title(f"{int(speed):,} rpm", fontsize=9)
-                for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
-                    axis.set_ticks((-0.3, 0.0, 0.3))
-                    axis.set_tick_params(labelsize=6, pad=-3)
-        return sheet.save(figure, path)
+        figure = sheet.new_figure(
+            left + (most + 1) * (SIDE + gap) + 170, TOP + 20 + len(rows) * (SIDE + 100)
+        )
+        sheet.heading(figure, *heading)
+        for i, (radial, name, (time, x)) in enumerate(rows):
+            top = TOP + 20 + i * (SIDE + 100)
+            for k, (word, yz) in enumerate(radial.items()):
+                place = (left + k * (SIDE + gap), top, SIDE, SIDE)
+                across(sheet.axes_at(figure, place), yz, word, reach)
+            place = (left + most * (SIDE + gap) + 10, top, SIDE + 150, SIDE)
+            along(sheet.axes_at(figure, place), time, x, name, wide)
+        sheet.save(figure, path)
+    return path.name
 
 
-def _over_speed(ax, computed, output: str, factor: float) -> None:
-    """Maps and readings over the ring's speed."""
-    bands(ax, computed, output, {s: int(s) for s in SPEEDS}, factor, colours=COLOURS, marks=MARKS,
-          shift=60.0)  # fmt: skip
-    ax.set(xlabel="inner ring [rpm]", xlim=(3600, 11400))
+def motion(computed, folder: Path) -> dict[str, str]:
+    """Figures 6 and 7 of the test's cage, and 8 of the simulation's."""
+    test = Track(computed.readings[CAGE].run(AXIS))
+    found = {"6": rows_of(
+        folder / "figure_6_7.png",
+        ("Figures 6 and 7: as measured, and the centre as the equations solve it",
+         "one start of the test's cage, 10,000 rpm"),
+        (({"6a radial readings": test.shown[:, :2]}, "6b reading of one axial laser",
+          (test.time, test.shown[:, 2])),
+         ({"7a radial": test.solved}, "7b axial", (test.time, test.axial))),
+        reach_of(test.shown[:, :2], test.solved),
+        0.6 * float(max(np.ptp(test.shown[:, 2]), np.ptp(test.axial))),
+    )}  # fmt: skip
+    own = Track(computed.readings[SIMULATED].run(AXIS))
+    found["8"] = rows_of(
+        folder / "figure_8.png",
+        ("Figure 8: as simulated", "one start of the paper's own model as printed, 10,000 rpm"),
+        (({"(a) origin, in the lasers' plane": own.origin, "(b) centre": own.centre[:, 1:]},
+          "(c) axial", (own.time, own.centre[:, 0])),),
+        reach_of(own.origin, own.centre[:, 1:]), 0.6 * max(float(np.ptp(own.centre[:, 0])), 0.01),
+    )  # fmt: skip
+    return found
 
 
-def ratios(computed, path: Path) -> Path:
-    """Figure 11."""
+def in_space(computed, folder: Path) -> str:
+    """Figures 9 and 10: the centre in space, one panel a speed, on one scale."""
+    columns = {CAGE: "9 measured", SIMULATED: "10 simulated"}
+    tracks = {(c, s): Track(computed.readings[c].run(s)) for c in columns for s in SPEEDS}
+    yz = {(c, s): t.solved if c == CAGE else t.centre[:, 1:] for (c, s), t in tracks.items()}
+    reach = reach_of(*yz.values())
     with sheet.style():
-        figure = sheet.new_figure(1480, 620)
-        sheet.heading(figure, "Whirl ratio over speed", "(largest - least)/mean whirl radius")
-        ax = sheet.axes_at(figure, (100, 130, 850, 400))
-        _over_speed(ax, computed, "ratio", 1.0)
-        ax.set(ylim=(0.0, 2.0), ylabel="whirl ratio")
-        ax.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0))
-        return sheet.save(figure, path)
+        figure = sheet.new_figure(4 * (SIDE + 20) + 60, TOP + 2 * (SIDE + 80))
+        sheet.heading(figure, "Figures 9 and 10: the centre in space", "one start each; mm")
+        for k, key in enumerate(tracks):
+            row, column = divmod(k, len(SPEEDS))
+            place = (30 + column * (SIDE + 20), TOP + row * (SIDE + 80), SIDE, SIDE)
+            ax = sheet.axes_at(figure, place, projection="3d")
+            x = tracks[key].centre[:, 0] - tracks[key].centre[:, 0].mean()
+            ax.plot(x, yz[key][:, 1], -yz[key][:, 0], color=sheet.BLUE, lw=0.5)
+            ax.set(xlim=(-reach, reach), ylim=(-reach, reach), zlim=(-reach, reach))
+            title = f"{columns[key[0]]} ({'abcd'[column]}): {int(key[1]):,} rpm"
+            ax.set_title(title, fontsize=10)
+            for axis, word in ((ax.xaxis, "x / mm"), (ax.yaxis, "z / mm"), (ax.zaxis, "-y / mm")):
+                axis.set_tick_params(labelsize=6, pad=-2)
+                axis.set_ticks((-reach, 0.0, reach))
+                axis.set_label_text(word, fontsize=8)
+        sheet.save(figure, folder / "figure_9_10.png")
+    return "figure_9_10.png"
 
 
-def differences(computed, path: Path) -> Path:
-    """Differences over speed, with the printed numbers of Tables 4 and 5."""
+Panel = tuple[str, str, tuple[float | None, float | None], Callable[[Axes], None]]
+
+
+def over_speed(folder: Path, name: str, title: str, panels: Sequence[Panel]) -> str:
+    """Panels (title, axis, limits, drawing) over the ring's speed, two a row, each row on one
+    scale: sample, readings, printed numbers."""
+    wide, high, left, gap = 460, 280, 90, 100
+    columns = min(len(panels), 2)
     with sheet.style():
-        figure = sheet.new_figure(1480, 620)
-        sheet.heading(figure, "Difference of whirl radii of the centre", "largest - least, mm")
-        ax = sheet.axes_at(figure, (100, 130, 850, 400))
-        _over_speed(ax, computed, "difference", MM)
-        for table, row, marker, name in (
-            ("table_4", "solved", "X", "paper, measured (Table 4, solved)"),
-            ("table_5", "centroid", "^", "paper, simulated (Table 5, centroid)"),
-        ):
-            numbers = PRINTED[table][row]
-            ax.plot([int(s) for s in numbers], list(numbers.values()), marker, ms=8.0,
-                    color=sheet.INK, label=name)  # fmt: skip
-        ax.set(ylim=(0.0, 0.8), ylabel="mm")
-        ax.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0))
-        return sheet.save(figure, path)
+        figure = sheet.new_figure(
+            left + columns * (wide + gap), TOP + 10 + -(-len(panels) // 2) * (high + 100)
+        )
+        sheet.heading(figure, title, "bands: middle 80 % of settings and median; marks: starts of "
+                      "readings, least to largest")  # fmt: skip
+        for k in range(0, len(panels), 2):
+            axes = []
+            for j, (word, unit, _, draw) in enumerate(panels[k : k + 2]):
+                place = (left + j * (wide + gap), TOP + 10 + k // 2 * (high + 100), wide, high)
+                ax = sheet.axes_at(figure, place)
+                draw(ax)
+                ax.set(xlabel="inner ring / rpm", ylabel=unit, xlim=(3600, 11400))
+                ax.set_title(word, loc="left", fontsize=10)
+                ax.legend(loc="best", fontsize=8, frameon=False)
+                axes.append(ax)
+            low, high_ = zip(*(ax.get_ylim() for ax in axes))
+            ends = panels[k][2]
+            for ax in axes:
+                ax.set_ylim(min(low) if ends[0] is None else ends[0],
+                            max(high_) if ends[1] is None else ends[1])  # fmt: skip
+        sheet.save(figure, folder / f"{name}.png")
+    return f"{name}.png"
 
 
-def tables(computed) -> list[Table]:
-    """Tables 3 to 5 of the paper beside what was computed."""
-    head = ("quantity", "rpm", "paper", *computed.readings, *computed.maps)
-    rpm = 30.0 / np.pi
-    asked = (
-        ("Table 3: cage speed [rpm]", "speed", "table_3", "simulated", rpm),
-        ("Table 4: measured difference [mm]", "raw", "table_4", "measured", MM),
-        ("Table 4: solved difference [mm]", "solved", "table_4", "solved", MM),
-        ("Table 4: error [%]", "error", "table_4", "error", 100.0),
-        ("Table 5: origin [mm]", "origin", "table_5", "origin", MM),
-        ("Table 5: centroid [mm]", "difference", "table_5", "centroid", MM),
-        ("Table 5: error [%]", "origin_error", "table_5", "error", 100.0),
-    )
-    rows = []
-    for title, output, table, row, factor in asked:
-        for speed in SPEEDS:
-            printed = PRINTED[table][row].get(speed)
-            rows.append((
-                title, f"{int(speed):,}", "-" if printed is None else f"{printed:g}",
-                *(r.said(output, speed, factor) for r in computed.readings.values()),
-                *(m.middle(output, speed, factor) for m in computed.maps.values()),
-            ))  # fmt: skip
-    title = "Readings: mean of all starts ± 95 %. Maps: median (middle 80 % of points)"
-    return [Table(title, head, rows)]
+def panel(
+    computed, sample: str, output: str, columns: tuple[str, ...], factor: float,
+    printed: Mapping[str, float] | None = None,
+) -> Callable[[Axes], None]:  # fmt: skip
+    """One panel: an output of a sample and of readings, with the numbers that are printed."""
+
+    def draw(ax: Axes) -> None:
+        bands(ax, computed.samples[sample], output, PLACES, factor, colour=SAMPLES[sample])
+        for k, column in enumerate(columns):
+            colour, marker = READINGS[column]
+            starts(ax, computed.readings[column], output, PLACES, factor, colour=colour,
+                   label=column, marker=marker, shift=60.0 * k)  # fmt: skip
+        if printed:
+            ax.plot([float(s) for s in printed], list(printed.values()), "X", ms=8.0,
+                    color=sheet.INK, label="printed")  # fmt: skip
+
+    return draw
+
+
+def draw(computed, folder: Path) -> dict[str, str]:
+    """All pictures by what they repeat."""
+    c, table, two, own = computed, PRINTED, (CAGE, RUN_UP), (SIMULATED,)
+    beyond = {
+        s: 100.0 * (table["table_3"]["simulated"][s] / table["table_3"]["theory"][s] - 1.0)
+        for s in table["table_3"]["theory"]
+    }
+    found = {"sketch": draw_sketch(folder / "sketch.png"), **motion(c, folder)}
+    found["9"] = in_space(c, folder)
+    found["11"] = over_speed(folder, "figure_11", "Figure 11: whirl ratio over speed", (
+        ("test: by lasers and equations", "ratio", (0.0, None),
+         panel(c, TEST, "solved_ratio", two, 1.0)),
+        ("simulation: of the centre", "ratio", (0.0, None), panel(c, MODEL, "ratio", own, 1.0)),
+    ))  # fmt: skip
+    found["t3"] = over_speed(folder, "table_3", "Table 3: cage speed beyond equation 18", (
+        ("simulation", "%", (None, None), panel(c, MODEL, "beyond_theory", own, 100.0, beyond)),
+    ))  # fmt: skip
+    found["t45"] = over_speed(folder, "tables_4_5", "Tables 4 and 5: differences of whirl radii", (
+        ("Table 4, solved", "difference / mm", (0.0, None),
+         panel(c, TEST, "solved", two, MM, table["table_4"]["solved"])),
+        ("Table 5, centroid", "difference / mm", (0.0, None),
+         panel(c, MODEL, "difference", own, MM, table["table_5"]["centroid"])),
+        ("Table 4, deflection error", "%", (-20.0, 40.0),
+         panel(c, TEST, "error", two, 100.0, table["table_4"]["error"])),
+        ("Table 5, deflection error", "%", (-20.0, 40.0),
+         panel(c, MODEL, "origin_error", own, 100.0, table["table_5"]["error"])),
+    ))  # fmt: skip
+    return found

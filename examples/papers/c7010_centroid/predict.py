@@ -79,16 +79,16 @@ def predictions(computed, printed) -> list[dict]:
     """An entry for every row of the paper that is not shown."""
     rng, rows = np.random.default_rng(SEED), []
     tables = (
-        ("4", "map of the test", "solved", "measured", "solved",
+        ("4", "test", "solved", "measured", "solved",
          ("measured vortex radius difference at this inner speed, rpm",
           "the same after the paper's correction")),
-        ("5", "map of the model", "centroid", "origin", "centroid",
+        ("5", "model", "centroid", "origin", "centroid",
          ("simulated difference at the measuring origin", "simulated difference of the centroid")),
     )  # fmt: skip
     for table, column, row, raw, plain, meanings in tables:
         numbers = printed[f"table_{table}"]
-        joined = computed.maps[column]
-        found = {n: joined.means("difference", f"{n:.0f}") * 1e3 for n in (*SHOWN, *AHEAD)}
+        means = computed.samples[column].means
+        found = {n: means["difference", f"{n:.0f}"] * 1e3 for n in (*SHOWN, *AHEAD)}
         whole = np.isfinite(list(found.values())).all(axis=0)
         at_shown, ahead = (
             np.column_stack([found[n][whole] for n in speeds]) for speeds in (SHOWN, AHEAD)

@@ -46,12 +46,15 @@ class Found:
     @property
     def said(self) -> str:
         """The verdict in a few words."""
-        verdict, mark = self.judged.verdict, MARKS[self.judged.verdict]
-        if verdict == UNDER:
-            return f"{mark} {verdict} {self.condition}"
-        return f"{mark} {verdict}" + (
-            f": {self.judged.reason}" if verdict == UNTESTABLE and self.judged.reason else ""
-        )
+        untestable = self.judged.verdict == UNTESTABLE and self.judged.reason
+        return self.short + (f": {self.judged.reason}" if untestable else "")
+
+    @property
+    def short(self) -> str:
+        """The same, without the reason of what is not testable."""
+        verdict = self.judged.verdict
+        under = f" {self.condition}" if verdict == UNDER else ""
+        return f"{MARKS[verdict]} {verdict}{under}"
 
 
 @dataclass(frozen=True)
@@ -146,10 +149,11 @@ def _region(found: Found) -> str:
 
 
 def _figure(figure: Figure, by_claim: dict[str, list[Found]]) -> str:
-    verdicts = [f"{found.part}: {found.said}" for key in figure.claims for found in by_claim[key]]
+    verdicts = [f"{found.part}: {found.short}" for key in figure.claims for found in by_claim[key]]
     lines = [f"### {figure.title}", wrapped(f"*The paper:* {figure.says}")]
     lines += [f"![{figure.title}]({figure.picture})"] if figure.picture else []
-    lines += [wrapped(f"**{'; '.join(verdicts)}.** {figure.mechanism}")]
+    found = f"**{'; '.join(verdicts)}.** " if verdicts else ""
+    lines += [wrapped(found + figure.mechanism)]
     return "\n\n".join(lines)
 
 
@@ -159,7 +163,8 @@ def _claims(found: Sequence[Found]) -> str:
         text = f"{one.text} ({one.where})" if one.claim != last else ""
         rows.append((one.claim if one.claim != last else "", text, one.part, one.said))
         last = one.claim
-    return table(Table("", ("", "claim", "finding", "verdict"), rows))
+    # a region in words has the limits of two unknowns: as many numbers as it needs
+    return table(Table("", ("", "claim", "finding", "verdict"), rows), free=("verdict",))
 
 
 def wrapped(text: str) -> str:
@@ -175,9 +180,11 @@ def bullets(items: Sequence[str]) -> str:
     )  # fmt: skip
 
 
-def table(found: Table, *, full: bool = False) -> str:
-    """A table in Markdown; ValueError for a cell of too many words or, unless ``full``, numbers."""
-    for cell in (str(cell) for row in found.rows for cell in row):
+def table(found: Table, *, full: bool = False, free: Sequence[str] = ()) -> str:
+    """A table in Markdown; ValueError for a cell of too many words or, unless ``full``, numbers;
+    columns that are ``free`` may hold any."""
+    strict = [k for k, name in enumerate(found.head) if name not in free]
+    for cell in (str(row[k]) for row in found.rows for k in strict):
         numbers = len(NUMBER.findall(cell))
         if not full and (len(cell.split()) > MOST_WORDS or numbers > MOST_NUMBERS):
             raise ValueError(f"a cell of '{found.title}' is too full: {cell}")

@@ -1,305 +1,285 @@
-"""The paper's Figures 5 to 10 and Table 4 from what was computed, and its tables laid beside."""
+"""The paper's Figures 4 to 12 and Table 4, laid out as the paper has them, from what was
+computed."""
 
 from __future__ import annotations
 
-import json
 import tomllib
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from claims import BASE, CLEARANCES, FORCE, INNER, OUTER, RADII, ROOT, SHEETS, WIDTHS
-from paper_figures import stress
-from paper_page import Picture, Table, number
-from predict import RADII as NAMES
-from predict import WIDTHS as SIZES
-from predict import additive, design_samples
-from scipy.stats import t as student
+from claims import BASE, FORCE, ROOT, SLIP, TILT
+from judging.pictures import COLOURS, bands, starts
+from matplotlib.axes import Axes
+from outputs import CLAMP, FRICTION, PLAYS, ROOT_RADIUS, joint
+from sketch import draw_sketch
 
+from flexcage import Run
 from flexcage.render import sheet
-from flexcage.render.claim_map import draw_claim_map
-from flexcage.study.sensitivity import share
+from flexcage.results import metrics
+from flexcage.stress.riveted_joint import Fit, JointResult
 
 HERE = Path(__file__).parent
 PRINTED = tomllib.loads((HERE / "printed.toml").read_text("utf-8"))
-BETTER, MODEL, FLEXIBLE = "better model", "as printed", "flexible cage"  # columns of readings
-CAGE = "map"  # column of the map
-RACE = "map of races"  # the same where grooves and clearance vary
-COLOURS = {BETTER: sheet.BLUE, MODEL: sheet.ORANGE, FLEXIBLE: sheet.VERMILION}
-#: Outputs as figures show them: title with unit, factor from SI.
+CAGE, RACE, RIVET, JOINT = "cage", "races", "rivets", "joint"  # samples
+RIG, MODEL, FLEXIBLE = "as the rig loads it", "as printed", "flexible cage"  # readings
+READINGS = {RIG: (sheet.GREEN, "o"), MODEL: (sheet.VERMILION, "s"), FLEXIBLE: ("#b07aa1", "D")}
+#: Outputs as figures show them: axis with unit, factor from SI.
 SHOWN = {
-    FORCE: ("ball-cage force [N]", 1.0), ROOT: ("range at rivets' roots [MPa]", 1e-6),
-    "rivet": ("nominal rivet stress [MPa]", 1e-6),
-    "slip": ("cage slip, eq. 10 [%]", 100.0), "psi": ("inclination psi_c [deg]", 57.29578),
-    "whirl": ("largest whirl radius [um]", 1e6),
+    FORCE: ("ball-cage force / N", 1.0), ROOT: ("nominal stress of a rivet / MPa", 1e-6),
+    SLIP: ("slip of the cage |S_c| / %", 100.0), TILT: ("tilt psi_c / deg", 180.0 / np.pi),
 }  # fmt: skip
-PARTS = ("reference", "angle", "curvature", "traction")  # of the slip
-TABLE_4 = tuple(f"{cage} {n}" for cage in ("modified", "original") for n in (9000, 8000, 7000))
+RADIUS = {"Rp 3.43": 3.43, "Rp 3.44": 3.44, "Rp 3.45": 3.45, BASE: 3.46, "Rp 3.47": 3.47,
+          "Rp 3.48": 3.48, "Rp 3.49": 3.49}  # fmt: skip
+WIDTH = {"w 4.4": 4.4, "w 5.0": 5.0, "w 5.6": 5.6, BASE: 6.2, "w 6.8": 6.8, "w 7.4": 7.4,
+         "w 8.0": 8.0}  # fmt: skip
+SHEET = {"t 0.7": 0.7, BASE: 0.8, "t 1.0": 1.0}
+INNER = {"f_i 0.505": 0.505, BASE: 0.515, "f_i 0.525": 0.525}
+OUTER = {"f_e 0.515": 0.515, BASE: 0.525, "f_e 0.530": 0.530}
+PLAY = {"Pd 5": 5.0, BASE: 10.0, "Pd 20": 20.0}
+CAGES = {"modified 9000": 0.0, "original 9000": 1.0}
+WIDE, HIGH, LEFT, TOP, GAP = 400, 260, 90, 110, 100  # px, of panels
+
+Axis = Mapping[str, float]
+Panel = tuple[str, str, Axis, str, str]  # title, output, axis, its name, sample
 
 
-def at(label: str, base: float) -> float:
-    """Where a condition lies along its axis."""
-    return base if label == BASE else float(label.split()[1])
+def panel(ax: Axes, computed, output: str, axis: Axis, sample: str) -> None:
+    """One output over one axis: the sample where it has it, and starts of readings."""
+    _, factor = SHOWN[output]
+    there = computed.samples.get(sample)
+    if there is not None:
+        known = {c: at for c, at in axis.items() if c in there.conditions}
+        bands(ax, there, output, known, factor)
+    for k, (name, (colour, marker)) in enumerate(READINGS.items()):
+        reading = computed.readings.get(name)
+        if reading is None or output == ROOT and name != FLEXIBLE:
+            continue
+        places = {c: at for c, at in axis.items() if c in reading.conditions}
+        if name == FLEXIBLE and output != ROOT or len(places) < 2:
+            continue
+        shift = 0.01 * k * float(np.ptp(list(axis.values())))
+        starts(ax, reading, output, places, factor, colour=colour, label=name, marker=marker,
+               shift=shift)  # fmt: skip
 
 
-def mean(reading, output: str, condition: str) -> tuple[float, float]:
-    """Mean over the starts and half of its 95 % interval, SI; NaN where there is none."""
-    found = reading.values(output, condition)
-    found = found[np.isfinite(found)]
-    if len(found) < 2:
-        return float("nan"), float("nan")
-    half = student.ppf(0.975, len(found) - 1) * found.std(ddof=1) / np.sqrt(len(found))
-    return float(found.mean()), float(half)
-
-
-def panel(ax, computed, output: str, conditions, base: float, name: str) -> None:
-    """One output over one axis: all readings, with the intervals of their starts."""
-    title, factor = SHOWN[output]
-    for column, reading in computed.readings.items():
-        rows = [(at(c, base), *mean(reading, output, c)) for c in conditions]
-        x, y, half = np.array([row for row in rows if np.isfinite(row[1])]).reshape(-1, 3).T
-        if len(x) > 1:
-            ax.errorbar(x, y * factor, half * factor, color=COLOURS[column], marker="o", ms=3.5,
-                        lw=1.2, capsize=2.5, label=column)  # fmt: skip
-    ax.set(xlabel=name, ylabel=title)
-
-
-def sweep(computed, path: Path, title: str, panels, columns: int) -> Path:
-    """A figure of panels ``(output, conditions, base, axis, printed)``."""
-    wide, high, left, top, gap = 430, 270, 90, 130, 110
+def sweep(computed, folder: Path, name: str, title: str, panels: Sequence[Panel],
+          columns: int = 3) -> str:  # fmt: skip
+    """A figure of panels; those of one output have one scale. The file's name."""
     lines = -(-len(panels) // columns)
     with sheet.style():
-        figure = sheet.new_figure(
-            left + columns * (wide + gap), top + lines * (high + gap) - gap + 70
-        )
-        sheet.heading(figure, title, "means of all starts, 95 % intervals")
-        for k, (output, conditions, base, name, printed) in enumerate(panels):
+        figure = sheet.new_figure(LEFT + min(columns, len(panels)) * (WIDE + GAP),
+                                  TOP + lines * (HIGH + 90) + 10)  # fmt: skip
+        sheet.heading(figure, title, "band: middle 80 % of settings and median; marks: starts of "
+                      "readings, least to largest")  # fmt: skip
+        drawn: dict[str, list[Axes]] = {}
+        for k, (word, output, axis, below, sample) in enumerate(panels):
             row, column = divmod(k, columns)
-            place = (left + column * (wide + gap), top + row * (high + gap), wide, high)
+            place = (LEFT + column * (WIDE + GAP), TOP + row * (HIGH + 90), WIDE, HIGH)
             ax = sheet.axes_at(figure, place)
-            panel(ax, computed, output, conditions, base, name)
-            if printed:
-                ax.plot(list(map(float, printed)), list(printed.values()), "X", ms=6,
-                        color=sheet.INK, label="paper, Table 3")  # fmt: skip
-            places = [at(c, base) for c in conditions]
-            if len(places) == 3:
-                ax.set_xticks(places)
-            ax.set_xlim(min(places) - 0.05 * np.ptp(places), max(places) + 0.05 * np.ptp(places))
-            if output in (FORCE, ROOT, "rivet"):
-                ax.set_ylim(0.0, 60.0 if output == FORCE else None)
+            panel(ax, computed, output, axis, sample)
+            printed(ax, output, axis)
+            ax.set(xlabel=below, ylabel=SHOWN[output][0])
+            ax.set_title(word, loc="left", fontsize=10)
+            if len(axis) < 4:
+                ax.set_xticks(list(axis.values()))
             if k == 0:
-                ax.legend(frameon=False, fontsize=7, ncol=4, loc="lower left",
-                          bbox_to_anchor=(0.0, 1.0), borderaxespad=0.1)  # fmt: skip
-        return sheet.save(figure, path)
+                ax.legend(loc="best", fontsize=7, frameon=False)
+            drawn.setdefault(output, []).append(ax)
+        if name == "figure_5":
+            row, column = divmod(len(panels), columns)
+            place = (LEFT + column * (WIDE + GAP), TOP + row * (HIGH + 90), WIDE, HIGH)
+            orbits(sheet.axes_at(figure, place), computed)
+        for axes in drawn.values():
+            top = max(ax.get_ylim()[1] for ax in axes)
+            for ax in axes:
+                ax.set_ylim(0.0, top)
+        sheet.save(figure, folder / f"{name}.png")
+    return f"{name}.png"
 
 
-def draw(computed, folder: Path) -> list[Picture]:
-    """All pictures, in the paper's order."""
-    table = PRINTED["table_3"]
-    radius = (RADII, 3.46, "pocket radius [mm]")
-    width = (WIDTHS, 6.2, "cage width [mm]")
-    sheets = (SHEETS, 0.8, "sheet's thickness [mm]")
-    sweep(computed, folder / "figure_5.png", "Figure 5: over the pocket radius", [
-        (FORCE, *radius, table["radius"]), (ROOT, *radius, None), ("slip", *radius, None),
-        ("psi", *radius, None), ("whirl", *radius, None), ("rivet", *radius, None)], 2)  # fmt: skip
-    sweep(computed, folder / "figure_6.png", "Figure 6: over the cage's width", [
-        (FORCE, *width, table["width"]), ("slip", *width, None), ("psi", *width, None)],
-        3)  # fmt: skip
-    sweep(computed, folder / "figure_7.png", "Figure 7: over the sheet's thickness",
-          [(o, *sheets, None) for o in (FORCE, ROOT, "slip")], 3)  # fmt: skip
-    races = ((INNER, 0.515, "inner conformity"), (OUTER, 0.525, "outer conformity"),
-             (CLEARANCES, 10.0, "radial clearance [um]"))  # fmt: skip
-    sweep(computed, folder / "figure_9.png", "Figure 9: over grooves and clearance",
-          [(o, *axis, None) for axis in races for o in (FORCE, "slip", "psi")], 3)  # fmt: skip
-    design(computed, folder / "figure_8.png")
-    rivet(folder / "figure_10.png")
-    slip(computed, folder / "table_4.png")
-    return [
-        *stress(
-            computed, folder, "Figure 4: stress of the original cage at 9000 rpm",
-            "Equivalent stress at its largest, coarse mesh. The paper's figure shows the "
-            "joint alone, with the head's root as its weak place.",
-        ),
-        Picture("figure_5.png", "Figure 5: over the pocket radius",
-                "Force with the printed numbers of Table 3 (crosses), range of stress at the roots "
-                "of rivets' heads (flexible cage), slip, inclination, whirl, nominal stress of "
-                "rivets. Width 6.2 mm. As printed, forces lie above the axis."),
-        Picture("figure_6.png", "Figure 6: over the cage's width",
-                "The same over the width, at a radius of 3.46 mm. A strip of 3.8 mm is in one "
-                "piece from 5.81 mm on; the printed numbers go on to 4.4 mm."),
-        Picture("figure_7.png", "Figure 7: over the sheet's thickness",
-                "Radius 3.46 mm, width 6.2 mm. Stress: range at the roots of rivets' heads."),
-        Picture("figure_8.png", "Figure 8, Table 3: force over radius and width",
-                "Left: the 49 points computed (rigid cage, balls of 6.747 mm, strip of 5.6 mm). "
-                "Right: what is predicted for the paper's table from its shown cross."),
-        Picture("figure_9.png", "Figure 9: over grooves and clearance",
-                "Each alone, at a radius of 3.46 mm and a width of 6.2 mm."),
-        Picture("figure_10.png", "Figure 10: the rivet over its fit",
-                "Largest equivalent stress at four places under the largest load, linear elastic; "
-                "play below zero is interference."),
-        Picture("table_4.png", "Table 4: slip of the cage at 9000 rpm, in parts",
-                "Crosses: measured and the paper's own. Bars: parts of the computed slip, which "
-                "sum to the dot. Box: middle 80 % of the map, its median."),
-        *maps(computed, folder),
-    ]  # fmt: skip
+def printed(ax: Axes, output: str, axis: Axis) -> None:
+    """The numbers of Table 3's cross that are shown."""
+    rows = {id(RADIUS): "radius", id(WIDTH): "width"}
+    if output == FORCE and id(axis) in rows:
+        numbers = PRINTED["table_3"][rows[id(axis)]]
+        ax.plot([float(x) for x in numbers], list(numbers.values()), "X", ms=6, color=sheet.INK,
+                label="printed (Table 3)")  # fmt: skip
 
 
-def maps(computed, folder: Path) -> list[Picture]:
-    """Where both cages lag by equation 10, as measured."""
-    joined = computed.maps[CAGE]
-    slips = np.array([joined.means("slip", f"{cage} 9000") for cage in ("modified", "original")])
-    outcomes = [bool(two.min() > 0.0) if np.isfinite(two).all() else None for two in slips.T]
-    draw_claim_map(
-        folder / "map_slip.png", title="Where both cages lag by equation 10, as measured",
-        subtitle=f"slip above zero at 9000 rpm, {share(outcomes)} of the map",
-        names=joined.names[:-1], ranges=joined.ranges, shares=joined.shares, outcomes=outcomes,
-    )  # fmt: skip
-    return [Picture("map_slip.png", "Map: where both cages lag, as measured",
-                    "Blue points do, red ones do not; lines are shares over quarters of a range. "
-                    "Ranges of conformities are those of balls of 6.747 mm.")]  # fmt: skip
+def orbits(ax: Axes, computed) -> None:
+    """Figure 5d: the cage's centre at three radii, one start each, overlaid."""
+    reading = computed.readings[RIG]
+    for colour, (condition, name) in zip(
+        COLOURS, (("Rp 3.49", "3.49 mm"), (BASE, "3.46 mm"), ("Rp 3.43", "3.43 mm"))
+    ):
+        run = reading.run(condition)
+        yz = metrics.orbit(metrics.settled(run.dataset, run.case.output.settle)) * 1e6
+        ax.plot(yz[:, 1], -yz[:, 0], lw=0.8, color=colour, label=name)
+    ax.set(aspect="equal", xlabel="z / um", ylabel="-y / um")
+    ax.set_title("(d) orbit of the cage's centre", loc="left", fontsize=10)
+    ax.legend(loc="best", fontsize=7, frameon=False)
 
 
-def design(computed, path: Path) -> Path:
-    """Table 3 as two maps: computed, and predicted from the shown cross."""
-    found = table_3()
-    samples = design_samples(computed)
-    x, y = samples.x, samples.y
-    radii, widths = np.unique(x[:, 0]), np.unique(x[:, 1])
-    grid = np.array([[y[(x == (r, w)).all(axis=1)].mean() for r in radii] for w in widths])
-    predicted = np.array([[found[f"{0.5 * r:.2f} x {w:g}"] for r in radii] for w in widths])
+def loaded_joint(run: Run, play: float) -> JointResult:
+    """The joint of the most stressed rivet of a run through its cycle."""
+    cage, bearing = run.case.cage, run.case.bearing
+    shape = cage.rivet_joint(bearing.pitch_diameter, bearing.element_count, ROOT_RADIUS)
+    _, largest, least = run.rivets.cycle()
+    fit = Fit(play=play, clamp=CLAMP, friction=FRICTION)
+    return joint(shape, cage.material).cycle(largest, least, fit)
+
+
+def section(ax: Axes, result: JointResult, most: float):
+    """Equivalent stress in the joint's section along the cage, coloured up to ``most`` [MPa]."""
+    import pyvista
+
+    bodies = result.bodies
+    tets = bodies.tets[:, :4]
+    cells = np.column_stack([np.full(len(tets), 4), tets]).ravel()
+    kinds = np.full(len(tets), pyvista.CellType.TETRA)
+    grid = pyvista.UnstructuredGrid(cells, kinds, bodies.nodes * 1e3)
+    grid["stress"] = result.instants["again"].equivalent * 1e-6
+    cut = grid.slice(normal="z", origin=(0.0, 0.0, 1e-6)).triangulate()
+    triangles = cut.faces.reshape(-1, 4)[:, 1:]
+    image = ax.tripcolor(cut.points[:, 1], cut.points[:, 0], triangles, cut["stress"],
+                         shading="gouraud", cmap="inferno", vmin=0.0, vmax=most)  # fmt: skip
+    ax.set(aspect="equal", xlabel="across / mm", ylabel="along the rivet / mm", xlim=(-1.9, 1.9))
+    ax.grid(False)
+    return image
+
+
+def joints(computed, folder: Path) -> str:
+    """Figures 4b and 10a to c: stress in the joint, and over its fit; the file's name."""
+    run = computed.readings[FLEXIBLE].run(BASE)
+    found = {name: loaded_joint(run, play) for name, play in PLAYS.items()}
+    top = {k: r.instants["again"].equivalent for k, r in found.items()}
+    most = 1e-6 * max(float(np.percentile(stress, 99.8)) for stress in top.values())
+    names = {"tight": "interference of 3 um", "loose": "play of 3 um"}
     with sheet.style():
-        figure = sheet.new_figure(1360, 640)
-        sheet.heading(figure, "Figure 8, Table 3: ball-cage force", "N, mean of the largest a turn")
-        for k, (values, name) in enumerate(((grid, "computed"), (predicted, "the paper's table"))):
-            ax = sheet.axes_at(figure, (90 + k * 640, 150, 520, 400))
-            ax.grid(False)
-            ax.imshow(values, origin="lower", aspect="auto", cmap="viridis")
-            ax.set(title=name, xlabel="pocket radius [mm]", ylabel="cage width [mm]",
-                   xticks=range(7), yticks=range(7))  # fmt: skip
-            ax.set_xticklabels([f"{0.5 * r:.2f}" for r in radii])
-            ax.set_yticklabels([f"{w:g}" for w in widths])
-            middle = 0.5 * (values.min() + values.max())
-            for i, j in np.ndindex(7, 7):
-                shown = k and (radii[j] == 6.92 or widths[i] == 6.2)
-                ax.text(j, i, f"{values[i, j]:.1f}", ha="center", va="center", fontsize=8,
-                        weight="bold" if shown else "normal",
-                        color="white" if values[i, j] < middle else "black")  # fmt: skip
-        return sheet.save(figure, path)
+        figure = sheet.new_figure(1500, 560)
+        under = "equivalent stress, linear elastic: (a, b) section, (c) largest by place"
+        sheet.heading(figure, "Figures 4 and 10: stress of the rivet by its fit", under)
+        for k, name in enumerate(("tight", "loose")):
+            ax = sheet.axes_at(figure, (80 + k * 440, TOP, 370, 360))
+            image = section(ax, found[name], most)
+            ax.set_title(f"({'ab'[k]}) {names[name]}", loc="left", fontsize=10)
+        bar = figure.colorbar(image, cax=sheet.axes_at(figure, (915, TOP, 16, 360)))
+        bar.set_label("MPa")
+        over_fits(sheet.axes_at(figure, (1060, TOP, 380, 360)))
+        sheet.save(figure, folder / "figure_10.png")
+    return "figure_10.png"
 
 
-def table_3() -> dict[str, float]:
-    """Force [N] of every cell: printed where shown, else predicted."""
-    rows = json.loads((HERE / "predictions.json").read_text("utf-8"))
-    found = {r["row"]: r["value"] for r in rows if r["table"] == "3"}
-    found |= {f"{r} x 6.2": value for r, value in PRINTED["table_3"]["radius"].items()}
-    return found | {f"3.46 x {w}": value for w, value in PRINTED["table_3"]["width"].items()}
-
-
-def rivet(path: Path) -> Path:
-    """Figure 10c."""
+def over_fits(ax: Axes) -> None:
+    """Figure 10c, by rivet.py."""
     table = pd.read_csv(HERE / "fits.csv")
-    columns = [c for c in table if c.endswith("again [MPa]")]
+    for column, colour in zip((c for c in table if c.endswith("again [MPa]")), COLOURS):
+        ax.plot(table["play [um]"], table[column], "o-", ms=4, lw=1.3, color=colour,
+                label=column.partition(",")[0])  # fmt: skip
+    ax.set(xlabel="play over the diameter / um", ylabel="MPa", ylim=(0.0, None))
+    ax.set_title("(c) over the fit", loc="left", fontsize=10)
+    ax.legend(loc="best", fontsize=8, frameon=False)
+
+
+def both_cages(computed, folder: Path) -> str:
+    """Table 4 and Figure 12: slip, and stress of rivets, of both cages; the file's name."""
     with sheet.style():
-        figure = sheet.new_figure(1100, 560)
-        sheet.heading(figure, "Figure 10: the rivet over its fit", "equivalent stress, MPa")
-        ax = sheet.axes_at(figure, (90, 120, 640, 360))
-        for column, colour in zip(columns, sheet.CYCLE):
-            ax.plot(table["play [um]"], table[column], marker="o", ms=4, lw=1.3, color=colour,
-                    label=column.partition(",")[0])  # fmt: skip
-        ax.set(xlabel="play over the diameter [um]", ylabel="MPa", ylim=(0.0, None))
-        ax.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0))
-        return sheet.save(figure, path)
+        figure = sheet.new_figure(1420, 500)
+        sheet.heading(figure, "Table 4 and Figure 12: both cages at 9000 rpm", "boxes: middle 80 % "
+                      "of settings and median; marks: starts of readings")  # fmt: skip
+        for k, (output, sample) in enumerate(((SLIP, CAGE), (ROOT, RIVET))):
+            ax = sheet.axes_at(figure, (90 + k * 680, TOP, 330, 300))
+            of_both(ax, computed, output, sample)
+            ax.set(xticks=(0.0, 1.0), xlim=(-0.5, 1.6), ylabel=SHOWN[output][0])
+            ax.set_xticklabels(("modified", "original"))
+            ax.set_ylim(0.0, None)
+            ax.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=7, frameon=False)
+        sheet.save(figure, folder / "table_4.png")
+    return "table_4.png"
 
 
-def slip(computed, path: Path) -> Path:
-    """Table 4 at 9000 rpm: parts of the slip by reading, and the map."""
-    colours = (sheet.BLUE, sheet.VERMILION, sheet.ORANGE, sheet.GREEN)
+def of_both(ax: Axes, computed, output: str, sample: str) -> None:
+    """An output of both cages: settings, starts of readings, printed slips."""
+    factor, there = SHOWN[output][1], computed.samples.get(sample)
+    for cage, at in CAGES.items() if there is not None else ():
+        low, mid, high = np.nanpercentile(there.means[output, cage] * factor, (10.0, 50.0, 90.0))
+        ax.bar(at, high - low, 0.4, low, color=sheet.BLUE, alpha=0.2)
+        ax.plot([at - 0.2, at + 0.2], [mid, mid], color=sheet.BLUE, lw=1.6,
+                label="settings that the text allows" if at == 0.0 else None)  # fmt: skip
+    for k, (column, (colour, marker)) in enumerate(READINGS.items()):
+        reading = computed.readings.get(column)
+        if reading is not None and (output != ROOT or column == FLEXIBLE):
+            starts(ax, reading, output, CAGES, factor, colour=colour, label=column, marker=marker,
+                   shift=0.28 + 0.06 * k)  # fmt: skip
+    for source, marker in (("experimental", "X"), ("artificial", "P")) if output == SLIP else ():
+        ax.plot([-0.3, 0.7], list(PRINTED["table_4"][source].values()), marker, ms=8, ls="",
+                color=sheet.INK, label=f"printed, {source}")  # fmt: skip
+
+
+def surface(computed, folder: Path) -> str:
+    """Figure 8: the 49 cages of Table 3, and the printed numbers that are shown."""
+    from predict import design_samples
+
     with sheet.style():
-        figure = sheet.new_figure(1440, 600)
-        sheet.heading(figure, "Table 4: slip of the cage at 9000 rpm", "%, by equation 10")
-        for k, cage in enumerate(("modified", "original")):
-            ax = sheet.axes_at(figure, (90 + k * 560, 130, 480, 380))
-            names = [*computed.readings, CAGE]
-            for i, reading in enumerate(computed.readings.values()):
-                up = down = 0.0
-                for part, colour in zip(PARTS, colours):
-                    value = 100.0 * mean(reading, part, f"{cage} 9000")[0]
-                    ax.bar(i, value, 0.5, up if value > 0.0 else down, color=colour,
-                           label=part if not i else None)  # fmt: skip
-                    up, down = (up + value, down) if value > 0.0 else (up, down + value)
-                ax.plot(i, 100.0 * mean(reading, "slip", f"{cage} 9000")[0], "o", color=sheet.INK)
-            found = 100.0 * computed.maps[CAGE].means("slip", f"{cage} 9000")
-            low, mid, high = np.nanpercentile(found, (10.0, 50.0, 90.0))
-            ax.bar(len(names) - 1, high - low, 0.5, low, color="0.75")
-            ax.plot(len(names) - 1, mid, "o", color=sheet.INK)
-            for source, marker, aside in (("experimental", "X", 0.7), ("artificial", "P", 0.5)):
-                ax.axhline(PRINTED["table_4"][source][cage], color="0.4", lw=0.8, ls="--")
-                ax.plot(len(names) - aside, PRINTED["table_4"][source][cage], marker, ms=8,
-                        color=sheet.INK, label=f"paper, {source}")  # fmt: skip
-            ax.axhline(0.0, color=sheet.INK, lw=0.8)
-            ax.set(title=f"{cage} cage", xticks=range(len(names)), ylabel="%", ylim=(-7.0, 3.5))
-            ax.set_xticklabels(names, fontsize=7)
-            if k:
-                ax.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=8)
-        return sheet.save(figure, path)
+        figure = sheet.new_figure(1180, 600)
+        under = "N; left computed, right the printed cross that is at hand; one scale"
+        sheet.heading(figure, "Figure 8, Table 3: ball-cage force over radius and width", under)
+        grids, radii, widths = grids_of(design_samples(computed))
+        most = max(np.nanmax(grid) for grid in grids)
+        for k, (grid, word) in enumerate(zip(grids, ("computed", "printed"))):
+            ax = sheet.axes_at(figure, (90 + 550 * k, TOP + 10, 440, 380))
+            ax.grid(False)
+            ax.imshow(grid, origin="lower", aspect="auto", cmap="viridis", vmin=20.0, vmax=most)
+            ax.set(xticks=range(len(radii)), yticks=range(len(widths)),
+                   xlabel="pocket radius / mm", ylabel="cage width / mm")  # fmt: skip
+            ax.set_title(word, loc="left", fontsize=10)
+            ax.set_xticklabels([f"{r:.2f}" for r in radii])
+            ax.set_yticklabels([f"{w:g}" for w in widths])
+            for i, j in zip(*np.nonzero(np.isfinite(grid))):
+                ax.text(j, i, f"{grid[i, j]:.1f}", ha="center", va="center", fontsize=8,
+                        color="white" if grid[i, j] < 0.5 * (20.0 + most) else "black")  # fmt: skip
+        sheet.save(figure, folder / "figure_8.png")
+    return "figure_8.png"
 
 
-def _starts(reading, output: str, condition: str, factor: float) -> str:
-    return number(*mean(reading, output, condition), factor=factor)
+def grids_of(samples) -> tuple[tuple[np.ndarray, np.ndarray], np.ndarray, np.ndarray]:
+    """Forces (widths, radii) [N] computed, and printed where shown, with radii and widths [mm]."""
+    x, y = samples.x, samples.y
+    diameters, widths = np.unique(x[:, 0]), np.unique(x[:, 1])
+    own = np.array([[y[(x == (d, w)).all(axis=1)].mean() for d in diameters] for w in widths])
+    shown = np.full_like(own, np.nan)
+    table = PRINTED["table_3"]
+    for j, d in enumerate(diameters):
+        shown[np.isclose(widths, 6.2), j] = table["radius"][f"{0.5 * d:.2f}"]
+    for i, w in enumerate(widths):
+        shown[i, np.isclose(diameters, 6.92)] = table["width"][f"{w:g}"]
+    return (own, shown), 0.5 * diameters, widths
 
 
-def tables(computed) -> list[Table]:
-    """Table 3's cross and Table 4 of the paper beside what was computed and predicted."""
-    rows, predicted = [], {}
-    for r in json.loads((HERE / "predictions.json").read_text("utf-8")):
-        predicted[r["table"], r["row"]] = f"{r['value']:g} ({r['low']:g} to {r['high']:g})"
-    for condition in RADII:
-        printed = PRINTED["table_3"]["radius"][f"{at(condition, 3.46):.2f}"]
-        rows.append((f"Table 3: {at(condition, 3.46):.2f} x 6.2 [N]", f"{printed:g}", "-",
-                     *_cells(computed, FORCE, condition, 1.0)))  # fmt: skip
-    for condition in (c for c in WIDTHS if c != BASE):
-        width = f"{at(condition, 6.2):g}"
-        printed = PRINTED["table_3"]["width"].get(width)
-        if printed is not None:
-            rows.append((f"Table 3: 3.46 x {width} [N]", f"{printed:g}", "-",
-                         *_cells(computed, FORCE, condition, 1.0)))  # fmt: skip
-    for condition in TABLE_4:
-        cage, speed = condition.split()
-        for source in ("experimental", "artificial"):
-            shown = speed == "9000"
-            printed = f"{PRINTED['table_4'][source][cage]:g}" if shown else "-"
-            said = "-" if shown else predicted["4", f"{cage} {speed} {source}"]
-            cells = _cells(computed, "slip", condition, 100.0)
-            rows.append((f"Table 4: {condition} rpm, {source} [%]", printed, said, *cells))
-    head = ("quantity", "paper", "predicted", *computed.readings, CAGE)
-    title = (
-        "Readings: mean of all starts ± 95 %. Maps: median (middle 80 % of points). Predicted: "
-        "90 % interval"
-    )
-    return [Table(title, head, rows), cross()]
-
-
-def _cells(computed, output: str, condition: str, factor: float) -> list[str]:
-    return [
-        *(_starts(r, output, condition, factor) for r in computed.readings.values()),
-        computed.maps[CAGE].middle(output, condition, factor),
-    ]  # fmt: skip
-
-
-def cross() -> Table:
-    """Table 3: predictions, and beside them what the shown cross alone predicts."""
-    alone = additive(PRINTED)
-    rows = {r["row"]: r for r in json.loads((HERE / "predictions.json").read_text("utf-8"))}
-
-    def cell(radius: str, width: str) -> str:
-        row = f"{radius} x {width}"
-        if row not in alone:
-            return f"**{table_3()[row]:g}**"
-        r = rows[row]
-        return f"{r['value']:.1f} ({r['low']:.1f} to {r['high']:.1f}); {alone[row]:.1f}"
-
-    return Table(
-        "Table 3 [N]: shown in bold; else predicted (90 %); the sum of the shown cross alone",
-        ("radius", *(f"w {w}" for w in SIZES)),
-        [(r, *(cell(r, w) for w in SIZES)) for r in NAMES],
-    )
+def draw(computed, folder: Path) -> dict[str, str]:
+    """All pictures by the figure that they repeat."""
+    c = computed
+    radius = (RADIUS, "pocket radius / mm")
+    width = (WIDTH, "cage width / mm")
+    thick = (SHEET, "sheet's thickness / mm")
+    found = {"sketch": draw_sketch(folder / "sketch.png")}
+    if FLEXIBLE in c.readings:
+        found["10"] = joints(c, folder)
+    found["5"] = sweep(c, folder, "figure_5", "Figure 5: over the pocket radius", (
+        ("(a) force", FORCE, *radius, CAGE), ("(b) rivets", ROOT, *radius, RIVET),
+        ("(c) slip", SLIP, *radius, CAGE), ("(c) tilt", TILT, *radius, CAGE)))  # fmt: skip
+    found["6"] = sweep(c, folder, "figure_6_7", "Figures 6 and 7: over width and sheet", (
+        ("6a force", FORCE, *width, CAGE), ("6c slip", SLIP, *width, CAGE),
+        ("6c tilt", TILT, *width, CAGE), ("7a force", FORCE, *thick, CAGE),
+        ("7a rivets", ROOT, *thick, RIVET), ("7b slip", SLIP, *thick, CAGE)))  # fmt: skip
+    races = ((INNER, "f_i", "ab"), (OUTER, "f_e", "cd"), (PLAY, "radial clearance / um", "ef"))
+    found["9"] = sweep(c, folder, "figure_9", "Figure 9: over grooves and clearance", [
+        (f"({letters[output != FORCE]}) {word}", output, axis, below, RACE)
+        for axis, below, letters in races
+        for output, word in ((FORCE, "force"), (SLIP, "slip"), (TILT, "tilt"))])  # fmt: skip
+    if (c.out / "design").is_dir():
+        found["8"] = surface(c, folder)
+    found["t4"] = both_cages(c, folder)
+    return found

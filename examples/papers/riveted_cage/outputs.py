@@ -16,13 +16,17 @@ from flexcage.geometry.materials import Material
 from flexcage.geometry.riveted_joint import JointShape
 from flexcage.mesh.riveted_joint import JointMesh
 from flexcage.results import metrics
+from flexcage.results.reductions import REDUCTIONS
 from flexcage.results.slip import cage_speed, rolling_by_curvature
 from flexcage.results.statistics import element_passes
 from flexcage.stress.riveted_joint import Fit, RivetedJoint
 
 PRINTED_BALL, PRINTED_PITCH = 6.47e-3, 26e-3  # m, of which equation 10's reference is made
 UNITS = {
+    "drifts": "",  # 1 where the cage's speed in the record's halves differs
+    "pocket_turn_largest": "N",  # largest ball-cage force of a turn of the cage, mean over turns
     "slip": "%",  # of the cage, by equation 10
+    "slip_size": "%",  # its size
     "reference": "%",  # its parts, which sum to it: balls that are not the printed ones
     "angle": "%",  # contact angles
     "curvature": "%",  # rolling beside the middle of curved contacts
@@ -35,10 +39,15 @@ UNITS = {
 }
 #: Of the joint of the most stressed rivet (rivet.py), which takes half a minute a run.
 FILLET_UNITS = {
-    "fillet": "MPa",  # largest range of a normal stress at the roots of the heads over a cycle
-    "fillet_peak": "MPa",  # largest equivalent stress there, clamping included
+    "root_tight": "MPa",  # largest equivalent stress at the roots of the heads, under interference
+    "eave_tight": "MPa",  # under the edges of the heads
+    "root_loose": "MPa",  # both with play
+    "eave_loose": "MPa",
+    "fillet": "MPa",  # largest range of a normal stress at those roots over a cycle, with play
 }
-FIT = Fit(play=3e-6, clamp=100.0, friction=0.15)  # assumptions; a small play, as the paper advises
+PLAYS = {"tight": -3e-6, "loose": 3e-6}  # m, of rivets in their holes: assumptions, as are
+CLAMP, FRICTION = 100.0, 0.15  # N, and of steel on greased steel
+FEW = 1e-3  # of the cage's speed, below which halves do not differ
 ROOT_RADIUS = 0.1e-3  # m, of cold headed rivets: an assumption
 MESH = JointMesh(sectors=6, size=1.5, seat=0.5, growth=2.0)  # six elements over the root
 
@@ -47,14 +56,34 @@ def evaluate(run) -> Mapping[str, float]:
     """All of ``UNITS`` of one run, in SI."""
     ds = metrics.settled(run.dataset, run.case.output.settle)
     force = ds["race_force"].sel(race="inner").values
+    slip = slip_parts(run, ds)
     return {
-        **slip_parts(run, ds),
-        "psi": inclination(ds),
+        **slip,
+        "slip_size": abs(slip["slip"]),
+        "drifts": drifts(run, ds),
+        "pocket_turn_largest": turn_largest(run, ds),
+        "psi": inclination(ds, run.case.load.direction),
         "cage_tilt": float(metrics.tilt(ds).sel(component="total").values.mean()),
         "whirl": float(metrics.whirl_radius(ds).max()),
         "ball_load": float(force[force > 0.0].mean()),
         "rivet": rivet_stress(run),
     }
+
+
+def drifts(run, ds) -> float:
+    """1 where the mean speed of the cage differs between the halves, beyond chance and ``FEW``."""
+    speed = np.abs(ds["cage_omega"].sel(axis="x").values)
+    halves = [half.mean() for half in np.array_split(speed, 2)]
+    apart = abs(halves[1] - halves[0]) > FEW * speed.mean()
+    return float(apart and element_passes(ds, run.numbers).mean(speed).drift > 2.0)
+
+
+def turn_largest(run, ds) -> float:
+    """Largest ball-cage force [N] in each turn of the cage, mean over turns."""
+    part = metrics.whole_revolutions(ds)
+    peaks = metrics.pocket_peaks(part).max(("pocket", "face")).values
+    turns = max(round(abs(float(np.ptp(metrics.carrier_angle(part)))) / (2.0 * np.pi)), 1)
+    return REDUCTIONS["turn_max"].over_turns(peaks, 1.0, turns)
 
 
 def slip_parts(run, ds) -> dict[str, float]:
@@ -76,12 +105,14 @@ def slip_parts(run, ds) -> dict[str, float]:
     }
 
 
-def inclination(ds) -> float:
+def inclination(ds, direction: float) -> float:
     """The paper's psi_c = arctan(omega_cz/omega_cx), mean of its size [rad]: the direction of the
-    cage's angular velocity, seen from the outer ring; the moment tilts the inner ring towards z."""
+    cage's angular velocity, seen from the outer ring, in the plane of the lever, which has the
+    radial load's azimuth [rad] and in which the moment tilts the inner ring."""
     turn = Rotation.from_quat(ds["cage_quaternion"].values, scalar_first=True)
     omega = turn.apply(ds["cage_omega"].values)
-    return float(np.abs(np.arctan(omega[:, 2] / omega[:, 0])).mean())
+    along = np.cos(direction) * omega[:, 1] + np.sin(direction) * omega[:, 2]
+    return float(np.abs(np.arctan(along / omega[:, 0])).mean())
 
 
 def rivet_stress(run) -> float:
@@ -101,9 +132,13 @@ def fillets(run) -> Mapping[str, float]:
     cage, bearing = run.case.cage, run.case.bearing
     shape = cage.rivet_joint(bearing.pitch_diameter, bearing.element_count, ROOT_RADIUS)
     _, largest, least = run.rivets.cycle()
-    found = joint(shape, cage.material).cycle(largest, least, FIT)
-    peak = found.instants["again"].equivalent[found.places["root"]].max()
-    return {"fillet": found.range_at("root")[0], "fillet_peak": float(peak)}
+    bodies, units = joint(shape, cage.material), {}
+    for name, play in PLAYS.items():
+        found = bodies.cycle(largest, least, Fit(play=play, clamp=CLAMP, friction=FRICTION))
+        again = found.instants["again"].equivalent
+        for place in ("root", "eave"):
+            units[f"{place}_{name}"] = float(again[found.places[place]].max())
+    return {**units, "fillet": found.range_at("root")[0]}  # with play, the last of PLAYS
 
 
 @lru_cache(maxsize=2)

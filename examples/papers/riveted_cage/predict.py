@@ -38,6 +38,7 @@ DRAWS, SEED = 20_000, 1
 NORM, TURNED, REST = (0.95, 0.17), 0.08, 0.2  # q, its deviation; those of rho and the rest [N]
 RADII = ("3.43", "3.44", "3.45", "3.46", "3.47", "3.48", "3.49")
 WIDTHS = ("8", "7.4", "6.8", "6.2", "5.6", "5", "4.4")
+AXES = ("cage.pocket_diameter", "cage.width")  # of the 49-point design, Table 3
 BEST = 3  # place of the best radius, and of the best width
 WIDE, OWN, NEAR, APART = 1.0, 0.04, 0.7, 0.035  # deviations: of k without a map; of one cage and
 # speed; of ln S in the likelihood of a point; of ln(measured/computed)
@@ -129,8 +130,8 @@ def trends(computed, printed, rng) -> dict[str, np.ndarray]:
     map whose slip is positive in both cages at all speeds, weighted by how near its slips at 9000
     rpm are to those measured; or as often of N(0, WIDE), which no point says."""
     speeds, cages = ("9000", "8000", "7000"), ("modified", "original")
-    joined_map = computed.maps["map"]
-    slips = {c: np.column_stack([joined_map.means("slip", f"{c} {n}") for n in speeds])
+    means = computed.samples["cage"].means
+    slips = {c: np.column_stack([means["slip", f"{c} {n}"] for n in speeds])
              for c in cages}  # fmt: skip
     both = np.hstack([slips[c] for c in cages])
     there = np.isfinite(both).all(axis=1) & (both > 0.0).all(axis=1)
@@ -183,12 +184,12 @@ def predictions(computed, printed) -> list[dict]:
 
 def design_samples(computed):
     """Forces of the computed 49-point design over pocket diameter and cage width."""
-    from claims import DESIGN_AXES, FORCE
+    from claims import FORCE
 
     from flexcage.study import StudyResults
     from flexcage.study.samples import samples_of
 
-    return samples_of(StudyResults(computed.out / "design"), FORCE, axes=DESIGN_AXES)
+    return samples_of(StudyResults(computed.out / "design"), FORCE, axes=AXES)
 
 
 def interaction(computed) -> str:

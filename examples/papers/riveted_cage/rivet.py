@@ -22,9 +22,9 @@ import flexcage
 from flexcage.mesh.riveted_joint import JointMesh
 from flexcage.stress.riveted_joint import PLACES, Fits, JointResult, fits_of
 from flexcage.stress.rivets import Rivets
-from flexcage.study.verdicts import FAILS, HOLDS, UNDECIDED
 
 FOLDER = Path(__file__).parent
+HOLDS, FAILS, UNDECIDED = "holds", "fails", "undecided"
 #: Play over the diameter [m]. The paper gives no values; an upset shank fills its hole or presses
 #: on it, and a punched hole of 1.2 mm has some hundredths of a millimetre of play at most.
 PLAYS = (-6e-6, -3e-6, 0.0, 3e-6, 10e-6, 20e-6)
