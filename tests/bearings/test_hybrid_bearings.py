@@ -30,9 +30,9 @@ HYBRID = {n: case.replace("bearing.element_material", "Si3N4") for n, case in CA
 ON_RACE, STEEL, CERAMIC = 2.699740e11, 2.263736e11, 3.343760e11
 #: Parts of a model whose law knows the elements, and those that know the rings.
 OF_ELEMENTS = {
-    "n1013": {"inner", "outer", "rib", "beside", "pocket"},
-    "nu210": {"inner", "outer", "outer_rib", "beside", "pocket"},
-    "c7010": {"inner", "outer", "beside", "pocket"},
+    "n1013": {"inner", "outer", "rib", "neighbours", "pocket"},
+    "nu210": {"inner", "outer", "outer_rib", "neighbours", "pocket"},
+    "c7010": {"inner", "outer", "neighbours", "pocket"},
 }
 OF_RINGS = {
     "n1013": {"inner", "outer", "rib", "land"},
@@ -116,7 +116,7 @@ def test_lines_of_rollers_on_races_neighbours_and_ribs(name):
     steel, hybrid = laws(model_of(CASES[name])), laws(model_of(HYBRID[name]))
     for place, modulus in (
         ("inner", ON_RACE), ("outer", ON_RACE), ("rib", ON_RACE), ("outer_rib", ON_RACE),
-        ("beside", CERAMIC),
+        ("neighbours", CERAMIC),
     ):  # fmt: skip
         if place not in OF_ELEMENTS[name]:
             continue
@@ -125,7 +125,9 @@ def test_lines_of_rollers_on_races_neighbours_and_ribs(name):
 
 def test_neighbours_and_pockets_of_ceramic_balls():
     steel, hybrid = laws(model_of(CASES["c7010"])), laws(model_of(HYBRID["c7010"]))
-    assert hybrid["beside"][0] / steel["beside"][0] == pytest.approx(CERAMIC / STEEL, rel=1e-5)
+    assert hybrid["neighbours"][0] / steel["neighbours"][0] == pytest.approx(
+        CERAMIC / STEEL, rel=1e-5
+    )
     cage, bearing = HYBRID["c7010"].cage, HYBRID["c7010"].bearing
     wall = cage.material.youngs_modulus / (1.0 - cage.material.poisson_ratio**2)
     found = pocket_contact(bearing, cage, 0.5 * cage.pocket_diameter).modulus
