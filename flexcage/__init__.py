@@ -28,14 +28,14 @@ def __getattr__(name: str) -> Any:
         raise unknown(__name__, name, _all_names()) from None
 
 
-def _rooms() -> list[ModuleType]:
+def _packages() -> list[ModuleType]:
     return [importlib.import_module(name) for name in ("flexcage.spec", "flexcage.study")]
 
 
 def _all_names() -> dict[str, str]:
     """Names of flexcage and of its namespaces, and where they stand."""
-    rooms = {name: room.__name__ for room in _rooms() for name in room.__all__}
-    return {**rooms, **dict.fromkeys(__dir__(), __name__)}
+    packages = {name: module.__name__ for module in _packages() for name in module.__all__}
+    return {**packages, **dict.fromkeys(__dir__(), __name__)}
 
 
 class _Package(ModuleType):

@@ -18,9 +18,9 @@ from flexcage.core.timing import Stages
 from flexcage.integrate.integration import Integration
 from flexcage.results.store import MemoryRunStore
 from flexcage.run import Run, warnings_at_start
-from flexcage.run.cost import note_pace, told_cost
-from flexcage.run.folder import begun_store, check_written, open_folder, tell_unfinished
-from flexcage.run.foreseen import told_already, told_before
+from flexcage.run.cost import note_pace, report_cost
+from flexcage.run.folder import begun_store, check_written, open_folder, report_unfinished
+from flexcage.run.foreseen import already_reported, report_before
 from flexcage.run.storing import run_store, stored_cage
 from flexcage.stages import assembled_start, made_cage
 
@@ -65,9 +65,9 @@ def _simulated(
     progress: Any,
 ) -> Run:
     stages = Stages(progress)
-    foreseen = told_before(case, stress=stress)
+    foreseen = report_before(case, stress=stress)
     if not begun:
-        told_cost(case, folder, quiet=told_already())
+        report_cost(case, folder, quiet=already_reported())
     compiling = begin_compiling(case)
     if folder and begun:
         mesh, cage = stored_cage(case, begun, folder, stages)
@@ -96,7 +96,7 @@ def load_run(folder: str | Path, *, progress: Any = None) -> Run:
     """
     path = path_of(folder, "run")
     case, store, edited = open_folder(path)
-    tell_unfinished(path, store, case.solver.duration)
+    report_unfinished(path, store, case.solver.duration)
     stages = Stages(progress)
     mesh, cage = stored_cage(case, store, path, stages)
     return Run(case, store, path, mesh, cage, stages=stages, edited=edited)

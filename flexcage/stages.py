@@ -40,10 +40,10 @@ from flexcage.system.bodies import heaviest_load, in_housing
 from flexcage.system.constraints import names_of
 from flexcage.system.layout import Layout, bodies_of_bearing
 from flexcage.system.problem import BearingSystem
-from flexcage.system.rings.left_out import left_by_lands
 from flexcage.system.rings.low_modes import DAMPED
 from flexcage.system.rings.modes_data import no_modes
 from flexcage.system.rings.moving import MovingRings, moving_rings
+from flexcage.system.rings.neglected import neglected_at_lands
 from flexcage.system.rings.races import rigid_rings
 from flexcage.system.rings.sections import lands_follow
 from flexcage.system.start import constrained, find_start, with_push
@@ -235,9 +235,9 @@ def assembled_start(
     with progress(1.0, "start") as bar:
         start = find_start(bearing, limit_force=limit, statics=statics, advance=bar.to)
     if bearing.rings:
-        lands = left_by_lands(bearing.rings, bearing.data.model.land)
+        lands = neglected_at_lands(bearing.rings, bearing.data.model.land)
         start = replace(start, warnings=(*start.warnings, *bearing.rings.warnings, *lands))
-    odd = questioned(specs.mount, specs.bearing, bearing.seat)
-    start = replace(start, warnings=(*start.warnings, *odd))
+    unusual = questioned(specs.mount, specs.bearing, bearing.seat)
+    start = replace(start, warnings=(*start.warnings, *unusual))
     start = with_push(start, bearing.layout, specs.start)
     return constrained(start, bearing, specs.constraints, limit_force=limit)

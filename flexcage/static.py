@@ -11,7 +11,7 @@ import numpy as np
 
 from flexcage.bearings import sections_of, statics_of
 from flexcage.case import Case, StaticCase
-from flexcage.case.odd_values import odd_values
+from flexcage.case.plausibility import implausible_values
 from flexcage.case.unread import not_used
 from flexcage.contacts.spec import EhlTraction
 from flexcage.core.binding import expect
@@ -50,8 +50,8 @@ def solve_static(case: StaticCase, *, options: StaticOptions | None = None) -> S
         rings=Rings(case.inner_ring, case.outer_ring, sections_of(bearing)),
         seat=seat,
     )  # fmt: skip
-    odd = (text for _, text in odd_values(case))
-    said = (*not_used(case), *odd, *questioned(case.mount, bearing, seat))
+    unusual = (text for _, text in implausible_values(case))
+    said = (*not_used(case), *unusual, *questioned(case.mount, bearing, seat))
     solution = replace(solution, mounting=case.mounting)
     if case.life.given:
         lives = lives_of(case, solution)

@@ -12,7 +12,7 @@ from flexcage.core.wings import FAMILIES
 from flexcage.geometry.bearing import BEARING_TYPES, Bearing, Rules, name_of
 
 if TYPE_CHECKING:
-    from flexcage.geometry.inside import Inside
+    from flexcage.geometry.inference import Inference
     from flexcage.geometry.ring import SectionsOf
     from flexcage.integrate.recording import Recording
     from flexcage.render.shapes import ShapesOf
@@ -33,8 +33,8 @@ class Family:
     instead. All else is heavy: functions without arguments that import what they return. None
     where a family has nothing of the kind: no static solution (``statics``), or neither equations
     of motion (``motion``) nor a record of them (``recording``), no pictures (``shapes``), no rule
-    by which ``flexcage new`` infers insides (``inside``), no rings that bend (``rings``), none that
-    bend in a run (``bending``).
+    by which ``flexcage new`` infers internal geometry (``inside``), no rings that bend (``rings``),
+    none that bend in a run (``bending``).
     """
 
     name: str
@@ -48,7 +48,7 @@ class Family:
     figures: Callable[[], OwnFigures] | None  # of its runs' summaries beside the common ones
     rubbing: Callable[[], Rub] | None  # of its elements in their pockets, for wear
     shapes: Callable[[], ShapesOf] | None  # profiles of rings and elements, for pictures
-    inside: Callable[[], Inside] | None  # inferred from a catalogue's ratings
+    inside: Callable[[], Inference] | None  # inferred from a catalogue's ratings
     rings: Callable[[], SectionsOf] | None = None  # sections of rings that bend
     bending: Callable[[], BendingMotion] | None = None  # motion between rings that bend
     other_designs: Mapping[str, str] = field(default_factory=dict)
@@ -125,13 +125,13 @@ def recording_of(bearing: Bearing) -> Recording[Any]:
     return recording()
 
 
-def inside_of(spec: type[Bearing]) -> Inside:
-    """What infers the insides of bearings of a spec; InputError without it."""
+def inference_of(spec: type[Bearing]) -> Inference:
+    """What infers the internal geometry of bearings of a spec; InputError without it."""
     inside = family_of(spec).inside
     if inside is None or name_of(spec) not in inside().cages:
         raise InputError(
-            f"The inside of a {spec.kind} is not inferred from ratings; give its dimensions in a "
-            "case.",
+            f"The internal geometry of a {spec.kind} is not inferred from ratings; give its "
+            "dimensions in a case.",
             where="bearing.type",
         )
     return inside()

@@ -13,7 +13,7 @@ from flexcage.geometry.cage import Cage
 from flexcage.geometry.defect import CageDefect, note_listed
 
 if TYPE_CHECKING:
-    from flexcage.geometry.inside import CageProposal
+    from flexcage.geometry.inference import CageProposal
     from flexcage.mesh.build import MeshBuilder
     from flexcage.modes.reduction import Interfaces
     from flexcage.stress.places import StressPlaces

@@ -12,14 +12,14 @@ from functools import cache
 from typing import Any
 
 from flexcage.case.catalogues import rows
-from flexcage.case.designation import Designation, beside, plain, read, series
+from flexcage.case.designation import Designation, plain, read, series, unknown_part
 from flexcage.case.marks import applied, rated_by_user
-from flexcage.core.binding import near_names, told_elsewhere
+from flexcage.core.binding import near_names, replacement_of
 from flexcage.core.errors import InputError
 from flexcage.core.units import parse
 from flexcage.geometry.bearing import OTHER_DESIGNS
 from flexcage.geometry.full_complement import CAGED, FULL
-from flexcage.geometry.inside import Outline
+from flexcage.geometry.inference import Outline
 from flexcage.geometry.other_kinds import kind_of
 
 # columns of ratings that only some types of bearing have: the key, and the option of "flexcage new"
@@ -47,11 +47,13 @@ def find(text: str) -> Entry:
     """The bearing of a designation, "N 210" or "N210", "6205-2RS C3"; InputError if it is unknown,
     or known without ratings, or of a design that flexcage has not."""
     found = _read(text)
+    if found and (other := next((u for u in found.unknown if _is_known(u)), "")):
+        raise _refused(text, f"names two bearings; give one, as in: flexcage new {other}")
     if not found or found.bare not in _ratings():
         raise _not_found(text, found)
     entry = _entry(found)
     source = entry.source
-    if found.number not in plain(text) or found.bare not in plain(text):
+    if plain(found.bare) not in plain(text):
         source = f"{source}; {text} means {found.bare}"
     return Entry(outline=applied(entry.outline, found), source=source)
 
@@ -87,6 +89,12 @@ def with_marks(outline: Outline) -> Outline:
     return rated_by_user(replace(marked, designation=outline.designation))
 
 
+def _is_known(text: str) -> bool:
+    """Is a text the designation of a bearing of known dimensions?"""
+    found = read(text)
+    return found is not None and _place(found) in _boundary()
+
+
 def _read(text: str) -> Designation | None:
     """A designation in parts; the suffix that numbers of its series may leave out is there, the A
     of a contact angle of 30 degrees (NTN, Ball and Roller Bearings, CAT. No. 2203/E)."""
@@ -119,10 +127,10 @@ def _not_found(text: str, found: Designation | None) -> InputError:
                 f"series {', '.join(_uncaged_series())} with bores of 20 to 60 mm, and any other "
                 f"one is described by {_uncaged_way(uncaged[1])}",
             )
-        if told := told_elsewhere(name, OTHER_DESIGNS):
+        if told := replacement_of(name, OTHER_DESIGNS):
             return InputError(f"'{text}': {told}{_same_rollers(name)}.", where="designation",
                               value=text)  # fmt: skip
-        if parts := beside(text):
+        if parts := unknown_part(text):
             number, rest = parts
             return _refused(
                 text, f"has '{rest}' beside '{number}', which flexcage does not know; set it apart "
@@ -169,9 +177,7 @@ def _nearest(name: str) -> str:
     """The known designations that are nearest to a name, or what the catalogue has at all."""
     close = near_names(name, _ratings())
     if not close:
-        return (
-            f"it has ratings of the series {', '.join(_rated_series())}, with bores of 10 to 60 mm"
-        )
+        return f"it has ratings of the series {', '.join(_rated_series())}"
     return f"the nearest known {'one is' if len(close) == 1 else 'ones are'} {', '.join(close)}"
 
 
@@ -212,7 +218,7 @@ def _without_ratings(text: str, found: Designation) -> InputError:
     others = [n for n in _ratings() if re.fullmatch(rf"{found.number}\D*", n)]
     listed = f"; it has {', '.join(others)}" if others else ""
     size = f"{bore.removesuffix(' mm')} x {outside.removesuffix(' mm')} x {width}"
-    name = str(found) if found.number in plain(text) else f"{found.bare}"
+    name = str(found) if plain(found.number) in plain(text) else found.bare
     options = " ".join(f'{option} "..."' for option in wanted)
     return InputError(
         f"The catalogue has no ratings of '{text}' ({size} by ISO 15{listed})"

@@ -618,7 +618,7 @@ def _find_in_width(case: CaseSections) -> Iterator[Finding]:
         )
 
 
-def land_beside_shoulder(case: CaseSections) -> Iterator[str]:
+def land_clearance_mismatch(case: CaseSections) -> Iterator[str]:
     """A sentence on a clearance that is not what the shoulder of the guiding ring leaves: no
     mistake, as the ring may have a land of its own, but one to know of."""
     given, ring = case.contacts.land.clearance, case.bearing.land(case.its_cage)

@@ -5,13 +5,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 from flexcage.case.catalogues import rows
 
 SEPARATORS = r"[\s_/.,-]+"
 GROUPS = ("C2", "CN", "C3", "C4", "C5")  # of radial clearance, ISO 5753-1
+_BORE = re.compile(r"(\D*\d{2,3})\s*/\s*(\d{1,4})(?!\d)(.*)")  # "62/22", where it has no code
 _TOGETHER = re.compile(r"(P[56])([2-5])")  # P63 is P6 and C3
 _FULL = "VH"  # of a full complement
 _SPINDLES = {"E": "25"}  # what Schaeffler means by a suffix of its bearings B, HCB and XCB
@@ -33,7 +34,7 @@ class Designation:
 
     @property
     def number(self) -> str:
-        """Series and bore code."""
+        """Series and bore code; of a bore without a code, that in mm behind a stroke."""
         return f"{self.series}{self.code}"
 
     @property
@@ -61,6 +62,8 @@ def read(text: str) -> Designation | None:
     beside its number that has no meaning here."""
     parts = [part for part in re.split(SEPARATORS, text.upper()) if part]
     name = "".join(parts)
+    if bore := _BORE.fullmatch(text.strip().upper()):
+        return _of_a_bore(*bore.groups())
     cuts = {len("".join(parts[:k])) for k in range(1, len(parts))}
     for own, match in _numbers(name, cuts):
         row, end = series()[own], match.end()
@@ -71,8 +74,8 @@ def read(text: str) -> Designation | None:
         joined = _marks_of([name[rest:]]) if unknown else ((), ())
         if unknown and not joined[1]:  # "2 RS"
             marks, unknown = joined
-        beside = bool(tokens) and rest not in cuts
-        if unknown and beside and not _marks_in(tokens[0])[0]:
+        trailing = bool(tokens) and rest not in cuts
+        if unknown and trailing and not _marks_in(tokens[0])[0]:
             continue
         return Designation(
             prefix=match["prefix"], series=own, code=match["code"], angle=angle,
@@ -81,7 +84,13 @@ def read(text: str) -> Designation | None:
     return None
 
 
-def beside(text: str) -> tuple[str, str] | None:
+def _of_a_bore(before: str, size: str, after: str) -> Designation | None:
+    """A designation with a bore in mm behind a stroke, as 62/22."""
+    found = read(f"{before}00{after}")
+    return replace(found, code=f"/{size}") if found and found.code == "00" else None
+
+
+def unknown_part(text: str) -> tuple[str, str] | None:
     """Series and bore code as a designation begins, and what stands beside them; None for a text of
     another form."""
     name = plain(text)
@@ -130,11 +139,13 @@ def _tokens(name: str, rest: int, cuts: set[int]) -> list[str]:
 
 
 def _marks_in(token: str) -> tuple[tuple[str, ...], str]:
-    """Marks at the beginning of a text, and what is left over of it: with the mark before it, which
-    may be the beginning of another one, but for a group of clearance."""
+    """Marks at the beginning of a text, and what is left over of it: with the mark before it, and
+    further letters, which may be the beginning of another one: "C3VT143" is C3 and VT143."""
     marks, left = _split(token)
-    if left and marks and marks[-1] not in GROUPS:
-        return marks[:-1], marks[-1] + left
+    whole = False  # what is left over begins with a whole mark, not amid letters
+    while left and marks and marks[-1] not in GROUPS and not whole:
+        marks, left = marks[:-1], marks[-1] + left
+        whole = bool(marks) and marks[-1][-1].isdigit()
     return marks, left
 
 

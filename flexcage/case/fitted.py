@@ -9,7 +9,7 @@ from typing import TypeVar
 import numpy as np
 
 from flexcage.bearings import sections_of
-from flexcage.case.catalogues import rows
+from flexcage.case.catalogues import clearance_limits, rows
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
 from flexcage.geometry.bearing import Bearing
@@ -59,12 +59,7 @@ def fastest(drive: Drive) -> float:
 def class_limits(bearing: Bearing, group: str) -> tuple[float, float] | None:
     """Least and largest radial clearance [m] of a class (ISO 5753-1); None where flexcage has no
     table for such bearings or their bore."""
-    bore = 1e3 * bearing.bore
-    for row in rows("clearance"):
-        if row["type"] == bearing.type and float(row["over_mm"]) < bore <= float(row["to_mm"]):
-            least, largest = (1e-6 * float(part) for part in row[group].split("-"))
-            return least, largest
-    return None
+    return clearance_limits(bearing.type, bearing.bore, group)
 
 
 def _initial(bearing: Bearing, fit: Fit) -> Three:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from flexcage.geometry.inside import Candidate, MarkedCage, Outline, ProposedCage
+from flexcage.geometry.inference import Candidate, MarkedCage, Outline, ProposedCage
 from flexcage.geometry.materials import MATERIALS
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from flexcage.case.catalogues import rows
+from flexcage.case.catalogues import clearance_limits
 from flexcage.case.designation import Designation, meanings, prefixes
 from flexcage.core.errors import InputError
 from flexcage.geometry.full_complement import CAGED, FILLED
-from flexcage.geometry.inside import ClearanceGroup, MarkedCage, Outline
+from flexcage.geometry.inference import ClearanceGroup, MarkedCage, Outline
 
 _NORMAL = "CN"
 _FULL = ("V", "CV", "VH")  # without a cage
@@ -75,21 +75,15 @@ _ON_SHOULDERS = {"crown": "machined", "ribbon": ""}
 
 
 def _clearance(outline: Outline, group: str) -> ClearanceGroup:
-    bore = 1e3 * outline.bore
-    for row in rows("clearance"):
-        if row["type"] == outline.type and float(row["over_mm"]) < bore <= float(row["to_mm"]):
-            (least, largest), normal = _limits(row[group]), _limits(row[_NORMAL])
-            more = (least + largest - sum(normal)) / 2.0
-            return ClearanceGroup(name=group, least=least, largest=largest, more=more)
-    raise InputError(
-        f"'{group}' names a group of radial clearance, and flexcage knows none of bearings of type "
-        f"'{outline.type}' with a bore of {bore:g} mm: leave it out.",
-        where="designation",
-        value=group,
+    limits = clearance_limits(outline.type, outline.bore, group)
+    normal = clearance_limits(outline.type, outline.bore, _NORMAL)
+    if limits is None or normal is None:
+        raise InputError(
+            f"'{group}' names a group of radial clearance, and flexcage knows none of bearings of "
+            f"type '{outline.type}' with a bore of {1e3 * outline.bore:g} mm: leave it out.",
+            where="designation",
+            value=group,
+        )
+    return ClearanceGroup(
+        name=group, least=limits[0], largest=limits[1], more=0.5 * (sum(limits) - sum(normal))
     )
-
-
-def _limits(text: str) -> tuple[float, float]:
-    """Least and largest [m] of an entry such as "5-20", in um."""
-    least, largest = (1e-6 * float(part) for part in text.split("-"))
-    return least, largest

@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields, replace
 from math import ceil, floor, log10
 from typing import Any
 
-from flexcage.bearings.family import inside_of
+from flexcage.bearings.family import inference_of
 from flexcage.cages.cage_type import proposal_of
 from flexcage.case.case import load_case
 from flexcage.case.marked import of_mark, rolling, unmarked
@@ -21,9 +21,9 @@ from flexcage.core.units import describe
 from flexcage.geometry.bearing import BEARING_TYPES, Bearing, check_type
 from flexcage.geometry.cage import cages_of
 from flexcage.geometry.full_complement import CAGED, FILLED, FULL, filled, reason_of_count
-from flexcage.geometry.inside import (
+from flexcage.geometry.inference import (
     Candidate,
-    Inside,
+    Inference,
     MarkedCage,
     Outline,
     ProposedCage,
@@ -65,14 +65,14 @@ def new_case(outline: Outline, source: str, *, cage: str | None = None) -> NewCa
     cage that such bearings commonly have, with another, or with "none"; InputError if there is no
     such bearing or none of its cages is of that type."""
     check_type(outline.type)
-    inside = inside_of(BEARING_TYPES[outline.type])
+    inference = inference_of(BEARING_TYPES[outline.type])
     if cage == NO_CAGE and outline.complement == CAGED:
         outline = replace(outline, complement=FILLED)
     if outline.complement != CAGED:
-        return _without_cage(outline, source, inside, cage)
-    candidates = [rolling(c) for c in ranked(inside.candidates(outline))]
+        return _without_cage(outline, source, inference, cage)
+    candidates = [rolling(c) for c in ranked(inference.candidates(outline))]
     _check_cage(cage, candidates[0].bearing.element)
-    usual = inside.cages[outline.type]
+    usual = inference.cages[outline.type]
     wanted = [None, outline.cage] if outline.cage and cage in (None, outline.cage.type) else [None]
     refused = None
     while wanted:
@@ -118,7 +118,7 @@ def _with_cage(
     return None, refused
 
 
-def _without_cage(outline: Outline, source: str, inside: Inside, cage: str | None) -> NewCase:
+def _without_cage(outline: Outline, source: str, inference: Inference, cage: str | None) -> NewCase:
     """The case of a full complement: one with such ratings, or one that is rated with a cage."""
     if cage not in (None, NO_CAGE):
         raise InputError(
@@ -128,20 +128,20 @@ def _without_cage(outline: Outline, source: str, inside: Inside, cage: str | Non
             value=cage,
         )
     if outline.complement == FULL:
-        if inside.full is None:
+        if inference.full is None:
             kind = outline.type.replace("_", " ")
             raise InputError(
-                f"The inside of a {kind} bearing is not inferred from ratings of a full "
-                "complement; give those with a cage without --cage none, then write model = "
+                f"The internal geometry of a {kind} bearing is not inferred from ratings of a "
+                "full complement; give those with a cage without --cage none, then write model = "
                 '"none" in [cage].',
                 where="cage.type",
             )
-        candidates = [rolling(c) for c in ranked(inside.full(outline))]
+        candidates = [rolling(c) for c in ranked(inference.full(outline))]
         chosen = candidates[0]
     else:
-        candidates = [rolling(c) for c in ranked(inside.candidates(outline))]
-        bearing = filled(candidates[0].bearing, inside.count)
-        reasons = {**candidates[0].reasons, inside.count: reason_of_count(bearing)}
+        candidates = [rolling(c) for c in ranked(inference.candidates(outline))]
+        bearing = filled(candidates[0].bearing, inference.count)
+        reasons = {**candidates[0].reasons, inference.count: reason_of_count(bearing)}
         chosen = replace(candidates[0], bearing=bearing, reasons=reasons)
     text = _text(outline, source, chosen, candidates, None)
     load_case(text)
@@ -187,7 +187,7 @@ def _findings(
         f"Ratings: {dynamic} = {_kn(outline.dynamic_rating)}, "
         f"{static} = {_kn(outline.static_rating)} ({source}).",
         *outline.left_out,
-        f"Inside, inferred: {_residuals(caged)}.",
+        f"Internal geometry, inferred: {_residuals(caged)}.",
         *_play(outline, chosen),
         *(
             f"{'Next best' if k == 0 else '     then'}: {_residuals(c)}."
@@ -233,7 +233,7 @@ def _text(
 ) -> str:  # fmt: skip
     name, bearing = case_name(outline), chosen.bearing
     head = [f"# {in_one_line(line)}" for line in _findings(outline, source, chosen, candidates)]
-    given = _given(outline)
+    given = _reasons_of_outline(outline)
     load = "axial" if outline.contact_angle else "radial"
     speed = _speed(bearing.pitch_diameter, caged=proposed is not None)
     sections = [
@@ -254,7 +254,7 @@ def _text(
     ]  # fmt: skip
     lines = [
         *head,
-        "# Makers do not publish insides: what is inferred or assumed is marked.",
+        "# Makers do not publish internal geometry: what is inferred or assumed is marked.",
         f"# flexcage run {name}.toml",
         f'name = "{name}"',
     ]
@@ -272,7 +272,7 @@ def _cage(proposed: ProposedCage | None) -> list[tuple[str, str, str]]:
     ]
 
 
-def _given(outline: Outline) -> dict[str, str]:
+def _reasons_of_outline(outline: Outline) -> dict[str, str]:
     """Why the dimensions of the outline are as they are."""
     races = {
         f"{side}_race_diameter": f"given: race diameter {letter}"

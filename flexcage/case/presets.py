@@ -21,7 +21,7 @@ from flexcage.core.binding import (
     expect,
     near_names,
     path_of,
-    told_elsewhere,
+    replacement_of,
     unknown_key,
 )
 from flexcage.core.errors import InputError
@@ -120,15 +120,17 @@ def _near_preset(name: str, names: list[str]) -> str:
 
 def _instead_of_preset(name: str) -> str:
     """What else there is of a bearing that no preset describes, as the end of a sentence."""
-    from flexcage.case.catalogue import find  # late: it imports what needs presets
+    from flexcage.case.catalogue import find, known  # late: it imports what needs presets
 
-    told = told_elsewhere(name, OTHER_DESIGNS)
-    design = f"; {told}" if told else ""
+    instead = replacement_of(name, OTHER_DESIGNS)
+    design = f"; {instead}" if instead else ""
     try:
         designation = find(name).outline.designation
     except InputError:
         declined = kind_of(name)
-        return design if told or not declined else f"; '{name}' {declined}"
+        if not declined and known(name):
+            return f": 'flexcage new {name}' writes such a case, from your maker's ratings"
+        return design if instead or not declined else f"; '{name}' {declined}"
     return f": 'flexcage new {designation}' writes such a case{design}"
 
 

@@ -122,7 +122,7 @@ def _in_loads(case: StaticSections) -> Iterator[tuple[str, str]]:
     load = case.load
     if load.times:
         yield f"load.{load.varies}", "load.times is given"
-    swings = load.wave != "none" and load.wave_of == "radial"
+    oscillates = load.wave != "none" and load.wave_of == "radial"
     changes = (load.ramp_to is not None or load.times) and load.varies == "radial"
-    if not (load.radial or swings or changes):
+    if not (load.radial or oscillates or changes):
         yield "load.direction", "there is no radial load"

@@ -13,7 +13,7 @@ from flexcage.core.listing import wrapped
 from flexcage.core.writing import write_text
 
 if TYPE_CHECKING:
-    from flexcage.geometry.inside import Outline
+    from flexcage.geometry.inference import Outline
 
 _DIMENSIONS = (
     ("--bore", "bore", "mm", "bore, as '25 mm'"),
@@ -44,7 +44,8 @@ def add_commands(commands: Any) -> None:
 
 
 def new_command(args: argparse.Namespace) -> int:
-    """flexcage new DESIGNATION [-o FILE]: a commented case, and how its inside was found."""
+    """flexcage new DESIGNATION [-o FILE]: a commented case, and how its internal geometry
+    was found."""
     from flexcage.case.new import case_name, new_case
 
     outline, source = _outline(args)
@@ -68,7 +69,7 @@ def _outline(args: argparse.Namespace) -> tuple[Outline, str]:
     from flexcage.core.errors import InputError
     from flexcage.geometry.bearing import check_type
     from flexcage.geometry.full_complement import CAGED, FULL
-    from flexcage.geometry.inside import Outline
+    from flexcage.geometry.inference import Outline
 
     name = " ".join(args.designation)
     if args.type is not None:

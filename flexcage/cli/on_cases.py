@@ -9,7 +9,7 @@ from typing import Any
 
 from flexcage.cli.files import prepare_file, prepare_out, run_folder
 from flexcage.cli.parser import case_options, command, picture_options, say
-from flexcage.cli.settings import case_from, look_of, settings_of, told_case_from
+from flexcage.cli.settings import case_from, checked_case_from, look_of, settings_of
 from flexcage.core.errors import InputError
 from flexcage.core.garbage import while_loading
 
@@ -97,7 +97,7 @@ def run_command(args: argparse.Namespace) -> int:
             case, out=out, resume=args.resume, other_version=args.other_version, progress=Progress
         )
         run.stages.begun = args.begun
-        run.tell_times()
+        run.report_times()
         say(run.summary.brief())
         say(f"\nThe run is in {out}; its summary.txt has all figures")
         if not args.no_images:
@@ -125,7 +125,7 @@ def static_command(args: argparse.Namespace) -> int:
 
 def mesh_command(args: argparse.Namespace) -> int:
     """flexcage mesh CASE: build, check and write the cage's mesh."""
-    case = told_case_from(args)
+    case = checked_case_from(args)
     out = Path(args.out) if args.out else Path(f"{case.name}.msh")
     from flexcage.cages.build import build_cage_mesh
     from flexcage.core.progress import Progress
@@ -145,12 +145,12 @@ def mesh_command(args: argparse.Namespace) -> int:
 
 def modes_command(args: argparse.Namespace) -> int:
     """flexcage modes CASE: the modal basis of the cage, as a table printed and stored."""
-    case = told_case_from(args)
+    case = checked_case_from(args)
     out = Path(args.out) if args.out else Path(f"{case.name}_modes.csv")
     prepare_file(out, (".csv",), force=args.force)
     from flexcage.core.progress import Progress
     from flexcage.core.timing import Stages
-    from flexcage.modes.door.table import body_table
+    from flexcage.modes.exchange.table import body_table
     from flexcage.results.mode_file import write_modes
     from flexcage.stages import flexible_cage
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from flexcage.cli.files import existing_run, prepare_file, prepare_out
 from flexcage.cli.parser import command, number, picture_options, say, whole_number
-from flexcage.cli.settings import case_from, look_of, told_case_from
+from flexcage.cli.settings import case_from, checked_case_from, look_of
 from flexcage.core.errors import InputError
 from flexcage.core.output_folders import check_either
 
@@ -168,14 +168,14 @@ def _export_body(args: argparse.Namespace) -> int:
     if args.table:
         raise InputError(f"--table belongs to a run, and '{args.run}' is a case.", where="table")
     args.case = args.run
-    case = told_case_from(args)
+    case = checked_case_from(args)
     for name, option in (("begin", "from"), ("end", "to"), ("count", "count")):
         if getattr(args, name) is not None:
             raise InputError(f"--{option} belongs to a run, and '{args.run}' is a case.")
     out = Path(args.out) if args.out else Path(f"{case.name}_cage.npz")
     from flexcage.core.progress import Progress
     from flexcage.core.timing import Stages
-    from flexcage.modes.door.formats import FORMATS, write_body
+    from flexcage.modes.exchange.formats import FORMATS, write_body
     from flexcage.stages import flexible_cage
 
     prepare_file(out, FORMATS, force=args.force)

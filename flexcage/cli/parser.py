@@ -43,8 +43,8 @@ class _Parser(argparse.ArgumentParser):
             )  # fmt: skip
             self.error(f"{self.prog} has no option {name}; {hint}")
         if rest:
-            apart = "--set" in map(str, args or ()) and (rest[0] == "=" or "=" not in rest[0])
-            hint = '; --set takes one word, as --set "load.radial=500 N"' if apart else ""
+            torn = "--set" in map(str, args or ()) and (rest[0] == "=" or "=" not in rest[0])
+            hint = '; --set takes one word, as --set "load.radial=500 N"' if torn else ""
             self.error(f"{self.prog} takes no '{rest[0]}' here{hint}")
         return found, rest
 

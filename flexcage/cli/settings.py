@@ -21,7 +21,7 @@ def case_from(args: argparse.Namespace) -> Any:
     return load_case(Path(args.case), overrides=overrides)
 
 
-def told_case_from(args: argparse.Namespace) -> Any:
+def checked_case_from(args: argparse.Namespace) -> Any:
     """The same, for commands that simulate nothing: logs which given values nothing reads."""
     import logging
 

@@ -53,9 +53,9 @@ def presets_command(args: argparse.Namespace) -> int:
     say(wrapped(preset.title))
     rows = [(path, str(v), _assumed(reasons.get(path))) for path, v in flat(preset.tables)]
     say(aligned(rows, indent=2))
-    if beside := _beside(preset):
+    if assumed := _default_assumptions(preset):
         say("\n  and in a case that says no more:")
-        rows = [(path, value, _assumed(reason)) for path, (value, reason) in beside.items()]
+        rows = [(path, value, _assumed(reason)) for path, (value, reason) in assumed.items()]
         say(aligned(rows, indent=2))
     say()
     for name, stated, computed in preset.ratings():
@@ -69,7 +69,7 @@ def _assumed(reason: str | None) -> str:
     return f"assumption: {reason}" if reason else ""
 
 
-def _beside(preset: Any) -> dict[str, tuple[str, str]]:
+def _default_assumptions(preset: Any) -> dict[str, tuple[str, str]]:
     """Assumptions of a case that names the preset and no more, beside the preset's own."""
     if not in_motion(type(preset.bearing)):
         return {}

@@ -8,7 +8,7 @@ without stress. A ball that sinks straight into a round rim touches all of it: o
 modes is known at stations round the pocket and interpolated smoothly between them; towards a
 sphere's poles it fades into the mean of all stations. What modes do not carry of a wall's yielding
 is a compliance of each station, in series with the contact's own. Forces are slopes of one energy:
-where the wall's displacement or compliance changes round the pocket, the force leans.
+where the wall's displacement or compliance changes round the pocket, the force is inclined.
 """
 
 from __future__ import annotations
@@ -118,15 +118,17 @@ def pocket_wall_contact(i, ball, modes, data, laws, sl, pw, wrench, mode, sums):
         zero(sums)
     rb, D, v = ball.radius, ball.centre, ball.velocity
     p, sphere = data.normal[i], data.shape == SPHERE
+    # in pocket axes (x, r, psi): n from the ball's centre to the nearest point of the wall
     (x, h, t), seat = from_middle(i, rb, D, data, pw)
-    n, apart, touch = nearest_wall((x, h, t), data.radius[i], rim_there(i, x, h, data), seat)
-    if apart == 0.0:
+    n, distance, touch = nearest_wall((x, h, t), data.radius[i], rim_there(i, x, h, data), seat)
+    if distance == 0.0:
         return False
     if mode >= REPORT:
         sums[ANGLE] = atan2(n[0], n[2])
         sums[APPROACH] = _along(n, v, pw)
-    if rb - apart + modes.margin + data.inset <= 0.0:
+    if rb - distance + modes.margin + data.inset <= 0.0:
         return False
+    # the wall at the contact's azimuth: displacement u, its slope and rate, compliance
     nst = data.phi.shape[2]
     place = atan2(n[0], n[2]) * nst / (2.0 * pi)
     first = floor(place)
@@ -151,16 +153,16 @@ def pocket_wall_contact(i, ball, modes, data, laws, sl, pw, wrench, mode, sums):
         ud = combine(times(share, ud), 1.0 - share, rate)
         soft = share * soft + (1.0 - share) * yielding
         du, softer = times(share, du), share * softer
-    depth = rb - apart - dot(u, n)
+    depth = rb - distance - dot(u, n)  # d = r_ball - distance - n . u
     if depth <= 0.0:
         return False
     # slope of the depth: along n, and as the wall's displacement changes there
     across = (u[0], u[1] if sphere else 0.0, u[2])
-    push = minus(n, turning(across, n, apart, touch))
+    push = minus(n, turning(across, n, distance, touch))
     round_it = polewards = (0.0, 0.0, 0.0)  # slopes of the azimuth and of that cosine
     if cosine > 0.0:
-        round_it = times(1.0 / (cosine * cosine), turning((n[2], 0.0, -n[0]), n, apart, touch))
-        polewards = times(1.0 / cosine, turning((n[0], 0.0, n[2]), n, apart, touch))
+        round_it = times(1.0 / (cosine * cosine), turning((n[2], 0.0, -n[0]), n, distance, touch))
+        polewards = times(1.0 / cosine, turning((n[0], 0.0, n[2]), n, distance, touch))
         push = combine(push, -dot(du, n), round_it)
         push = combine(push, -dot(faded, n), polewards)
     yields = combine(times(softer, round_it), fading, polewards)  # slope of the compliance
@@ -185,6 +187,7 @@ def pocket_wall_contact(i, ball, modes, data, laws, sl, pw, wrench, mode, sums):
     sl.N[0] = N
     friction_factors(laws.friction, (0, 1), sl, data.friction)
     drag = times(-N * sl.g[0], slip)
+    # on the ball, in F: -mu N along the slip, -N grad d, + N^2/2 grad compliance
     total = combine(drag, -N, _in_frame(push, pw))
     total = combine(total, 0.5 * N * N, _in_frame(yields, pw))
     moment = cross(arm, drag)
@@ -248,44 +251,44 @@ def nearest_wall(d, radius, rim, seat):
     distance 0 and means nothing.
     """
     high, wide = rim
-    held_x, held_r = _held(d, high, wide, seat)
+    held_x, held_r = _on_rims(d, high, wide, seat)
     ex, er = held_x * (wide * radius - abs(d[0])), held_r * (high * radius - abs(d[1]))
     level = 1.0 - held_x * wide * wide - held_r * high * high  # of a circle on the sphere
     a = ((1.0 - held_x) * d[0], (1.0 - held_r) * d[1], d[2])
     reach = sqrt(dot(a, a) + seat * seat)
     off = sqrt(max(level, 0.0)) * radius - reach
-    apart = sqrt(ex * ex + er * er + off * off)
-    if reach == 0.0 or apart == 0.0:
+    distance = sqrt(ex * ex + er * er + off * off)
+    if reach == 0.0 or distance == 0.0:
         return (0.0, 0.0, 0.0), 0.0, (held_x, held_r, a, 1.0, off)
     f = times(1.0 / reach, a)
-    n = times(off / apart, f)
+    n = times(off / distance, f)
     n = (
-        n[0] + (ex if d[0] >= 0.0 else -ex) / apart,
-        n[1] + (er if d[1] >= 0.0 else -er) / apart,
+        n[0] + (ex if d[0] >= 0.0 else -ex) / distance,
+        n[1] + (er if d[1] >= 0.0 else -er) / distance,
         n[2],
     )
-    return n, apart, (held_x, held_r, f, reach, off)
+    return n, distance, (held_x, held_r, f, reach, off)
 
 
 @part
-def _held(d, high, wide, seat):
+def _on_rims(d, high, wide, seat):
     """Whether the nearest point of a sphere's wall lies on a rim along x, and on one along r.
 
     ``high`` and ``wide``: sines of the latitudes at which the wall ends that way; over 1 nowhere.
     """
     x, r, tt = abs(d[0]), abs(d[1]), d[2] * d[2] + seat * seat
     reach = sqrt(x * x + r * r + tt)
-    tall, broad = r > high * reach, x > wide * reach
-    if not (tall or broad):
+    past_r, past_x = r > high * reach, x > wide * reach
+    if not (past_r or past_x):
         return 0.0, 0.0
     # along the one rim alone: is the other passed then?
     at_r = at_x = -1.0
-    if tall:
+    if past_r:
         level = sqrt(1.0 - high * high)
         round_it = sqrt(x * x + tt)
         if level * x <= wide * round_it:
             at_r = high * r + level * round_it
-    if broad:
+    if past_x:
         level = sqrt(1.0 - wide * wide)
         round_it = sqrt(r * r + tt)
         if level * r <= high * round_it:
@@ -298,7 +301,7 @@ def _held(d, high, wide, seat):
 
 
 @part
-def turning(a, n, apart, touch):
+def turning(a, n, distance, touch):
     """Slope of ``n . a`` over the ball's place, for a constant vector: the distance's second
     derivatives, less those of a wall that goes with the ball."""
     held_x, held_r, f, reach, off = touch
@@ -306,7 +309,7 @@ def turning(a, n, apart, touch):
     along = dot(f, free)
     bent = combine(times(along + off / reach * along, f), -off / reach, free)
     bent = (bent[0] + held_x * a[0], bent[1] + held_r * a[1], bent[2])
-    return times(-1.0 / apart, combine(bent, -dot(n, a), n))
+    return times(-1.0 / distance, combine(bent, -dot(n, a), n))
 
 
 @part

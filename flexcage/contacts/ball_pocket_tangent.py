@@ -115,22 +115,22 @@ def pocket_wall_tangent(i, ball, modes, data, laws, sl, pw, wrench, sums):
 def _wall_there(i, ball, data, pw):
     """The ``Wall``; fills ``pw.shape``."""
     d, seat = from_middle(i, ball.radius, ball.centre, data, pw)
-    n, apart, touch = nearest_wall(d, data.radius[i], rim_there(i, d[0], d[1], data), seat)
+    n, distance, touch = nearest_wall(d, data.radius[i], rim_there(i, d[0], d[1], data), seat)
     dx, dt = beyond_straight(i, d[0], d[2], data)
     keep = (dx, 1.0 if data.shape == SPHERE else 0.0, dt)  # along these the place counts
     cosine = sqrt(n[0] * n[0] + n[2] * n[2])
     around = polewards = (0.0, 0.0, 0.0)
     if cosine > 0.0:
-        bend = turning((n[2], 0.0, -n[0]), n, apart, touch)
+        bend = turning((n[2], 0.0, -n[0]), n, distance, touch)
         around = _scaled(keep, times(1.0 / (cosine * cosine), bend))
-        bend = turning((n[0], 0.0, n[2]), n, apart, touch)
+        bend = turning((n[0], 0.0, n[2]), n, distance, touch)
         polewards = _scaled(keep, times(1.0 / cosine, bend))
     (soft, softer, fading), still = _shapes(i, n, cosine, data, pw)
     yields = combine(times(softer, around), fading, polewards)
     bends = (
-        _scaled(keep, turning((1.0, 0.0, 0.0), n, apart, touch)),
-        _scaled(keep, turning((0.0, 1.0, 0.0), n, apart, touch)),
-        _scaled(keep, turning((0.0, 0.0, 1.0), n, apart, touch)),
+        _scaled(keep, turning((1.0, 0.0, 0.0), n, distance, touch)),
+        _scaled(keep, turning((0.0, 1.0, 0.0), n, distance, touch)),
+        _scaled(keep, turning((0.0, 0.0, 1.0), n, distance, touch)),
     )
     return Wall(n, bends, keep, around, polewards, yields, soft, still)
 

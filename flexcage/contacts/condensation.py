@@ -80,7 +80,7 @@ def condense(data, i, laws, guess, sl, pw):
     if touched == 1:
         _solve_alone(data, i, last, laws, sl, pw)
         if not _join(data, i, sl, pw):
-            _lean(data, i, last, pw)
+            _residual_deflection(data, i, last, pw)
             return
     pw.size[0] = N_LOCAL
     copy_into(pw.c, pw.b)
@@ -94,11 +94,11 @@ def condense(data, i, laws, guess, sl, pw):
         joined = _join(data, i, sl, pw)
     for f in range(FACES):
         if pw.live[f] != 0:
-            _lean(data, i, f, pw)
+            _residual_deflection(data, i, f, pw)
 
 
 @part
-def left_out(pw):
+def touches_more(pw):
     """Whether the residual deflection may push to the roller what was not near before."""
     for f in range(FACES):
         if pw.rest[f] + pw.push[f] > 0.0:
@@ -176,6 +176,7 @@ def _solve(m, most, data, laws, sl, pw):
 @part
 def _balance(m, data, laws, anew, sl, pw):
     """Newton's step of m coordinates into pw.g, with new factors or those of an earlier step."""
+    # (1 + R^T H R) dc = R^T F_el(d0 - R c) - c, H = dF_el/dd
     for l in range(m):
         pw.g[l] = -pw.c[l]
     if anew:
@@ -250,10 +251,10 @@ def back_substitute(n, A, x):
 
 
 @part
-def _lean(data, i, f, pw):
+def _residual_deflection(data, i, f, pw):
     """Residual deflection of face f's stations, and the most by which it comes to the roller."""
-    lean = pw.lean[f]
-    for s in range(lean.shape[0]):
+    deflection = pw.deflection[f]
+    for s in range(deflection.shape[0]):
         x = 0.0
         if pw.size[0] == N_FACE:
             for l in range(N_FACE):
@@ -261,14 +262,14 @@ def _lean(data, i, f, pw):
         else:
             for l in range(N_LOCAL):
                 x += data.res[i, f, s, l] * pw.c[l]
-        lean[s] = x
-    pw.push[f] = max(pw.push[f], most_of_curve(lean.shape[0] - 2, -1.0, lean))
+        deflection[s] = x
+    pw.push[f] = max(pw.push[f], most_of_curve(deflection.shape[0] - 2, -1.0, deflection))
 
 
 @part
-def lean_of_residual(f, pw):
+def add_residual_slope(f, pw):
     """Add to the slope of face f what the residual deflection gives it."""
     face, span = pw.face[f], span_of(pw, f)
-    read_values(span, face.ws, face, pw.lean[f], face.read)
+    read_values(span, face.ws, face, pw.deflection[f], face.read)
     for k in range(span[0], span[1]):
         face.slope[k] += face.read[k]

@@ -37,12 +37,12 @@ from flexcage.contacts.slices import (
     stored_and_damped,
 )
 from flexcage.contacts.state import add_force_and_moment
-from flexcage.contacts.uneven import ride, ride_on_spot
+from flexcage.contacts.uneven import effective_penetration, spotted_penetration
 from flexcage.core.jit import VECTORISED, outlined, part, zero
 from flexcage.core.vectors import combine, cross, dot, minus, plus, times
 
 LEAST_ROLLING = 1e-3  # rad/s: below it the rolling resistance fades out
-LEAST_LEAN = 1e-3  # of a ball on the sides of a spall: below it, it nears them as an even race
+LEAST_GRADIENT = 1e-3  # of a ball on the sides of a spall: below it, it nears them as an even race
 
 
 class Groove(NamedTuple):
@@ -63,7 +63,7 @@ class Groove(NamedTuple):
     spall: np.ndarray  # (5,) as in ``contacts.uneven``
     sides: np.ndarray  # (2,) angles across the groove between which the spall lies
     reach: float  # half of the ellipse's length over the root of the depth
-    spot: np.ndarray  # (4,) of the ball that has one, as in ``uneven.ride_on_spot``
+    spot: np.ndarray  # (4,) of the ball that has one, as in ``uneven.spotted_penetration``
     uneven: int  # 1 if there is a wave or a spall (records hold no booleans)
 
 
@@ -94,42 +94,44 @@ def groove_contact(ball, race, laws, sl, wrench, mode, sums):
     if mode >= REPORT:
         zero(sums)
     P, b = ball.centre, ball.axis
+    # a torus: d = reach - (r_groove - r_ball), d' = n . v of the centre over the ring's material
     e, n, distance, reach = line_of_contact(P, b, race)
     spin = minus(ball.spin, ball.ring_spin)
     v = minus(minus(ball.velocity, ball.ring_velocity), cross(ball.ring_spin, P))
     sl.d[0], sl.v[0] = reach - race.radius + ball.radius, dot(n, v)
-    lean, twist, near = (1.0, 0.0, 0.0), (0.0, 0.0, 0.0), sl.v[0]
-    leans = race.uneven + ball.spotted > 0
-    if leans:
-        lean, twist = lean_on(ball, race, (e, n, distance, reach), sl)
-        near = sl.v[0] / lean[0] if lean[0] > LEAST_LEAN else near
+    gradient, twist, near = (1.0, 0.0, 0.0), (0.0, 0.0, 0.0), sl.v[0]
+    uneven = race.uneven + ball.spotted > 0
+    if uneven:
+        gradient, twist = penetration_gradient(ball, race, (e, n, distance, reach), sl)
+        near = sl.v[0] / gradient[0] if gradient[0] > LEAST_GRADIENT else near
     if mode >= REPORT:
         sums[ANGLE] = atan2(race.side * dot(n, b), race.side * dot(n, e))
         sums[APPROACH] = near
     if sl.d[0] <= 0.0:
         return False
     normal_forces(laws.normal, (0, 1), sl, race.normal, ball.onset)
-    N = sl.N[0] * lean[0]
+    N = sl.N[0] * gradient[0]
     if mode >= REPORT:
         sums[STORED], sums[DAMPED] = stored_and_damped((0, 1), sl, race.normal[EXPONENT])
+    # traction: strips of the ellipse, whose long half axis grows with N^(1/3) (Hertz)
     g = cross(b, e)  # rolling direction, along the race
     t = cross(n, g)
     size = N ** (1.0 / 3.0)
     middle = ball.radius - 0.5 * sl.d[0]
-    _slide(race, race.long * size, middle, n, g, t, v, spin, sl)
+    _strip_sliding(race, race.long * size, middle, n, g, t, v, spin, sl)
     friction_factors(laws.friction, (0, race.strip.shape[0]), sl, race.friction)
-    force, moment = _drag(race, race.long * size, middle, N, n, g, t, sl)
+    force, moment = _strip_friction(race, race.long * size, middle, N, n, g, t, sl)
     roll = combine(spin, -dot(spin, n), n)
     speed = sqrt(dot(roll, roll))
-    resisting = 0.0
+    resisting = 0.0  # a moment of factor w^p N^q against the rolling velocity w
     if race.rolling[0] > 0.0 and N > 0.0:
         fast = max(speed, LEAST_ROLLING)
         resisting = race.rolling[0] * fast ** race.rolling[1] * N ** race.rolling[2] / fast
     moment = combine(moment, -resisting, roll)
     total = combine(force, -N, n)
     whole = moment
-    if leans:
-        total = combine(total, -sl.N[0], leaning((0.0, lean[1], lean[2]), n, g))
+    if uneven:  # minus the slopes of the energy along g and t, and over rotation
+        total = combine(total, -sl.N[0], gradient_direction((0.0, gradient[1], gradient[2]), n, g))
         whole = combine(moment, -sl.N[0], twist)
     add_force_and_moment(wrench, total, whole)
     if mode >= REPORT:
@@ -141,9 +143,9 @@ def groove_contact(ball, race, laws, sl, wrench, mode, sums):
 
 
 @outlined
-def lean_on(ball, race, line, sl):
+def penetration_gradient(ball, race, line, sl):
     """How the depth on an uneven race, or of a spotted ball, follows the ball's place, along n, g
-    and t, and its rotation; the depth that counts, and its rate, into sl.d and sl.v. ``line``: what
+    and t, and its rotation; the effective depth, and its rate, into sl.d and sl.v. ``line``: what
     ``line_of_contact`` gives."""
     e, n, distance, reach = line
     b, twist = ball.axis, (0.0, 0.0, 0.0)
@@ -151,28 +153,30 @@ def lean_on(ball, race, line, sl):
     if race.uneven:
         place = atan2(race.side * dot(n, b), race.side * dot(n, e))
         phi = ball.azimuth + atan2(e[2], e[1])
-        sl.d[0], by_depth, by_phi, by_place = ride(race, phi, place, sl.d[0])
+        sl.d[0], by_depth, by_phi, by_place = effective_penetration(race, phi, place, sl.d[0])
         along, across = by_phi / distance, by_place / reach
     if ball.spotted > 0 and dot(ball.spot, n) > 0.0:
         g = cross(b, e)
         t = cross(n, g)
         s = times(1.0 / sqrt(dot(ball.spot, ball.spot)), ball.spot)
         places = ball.radius * dot(s, g), ball.radius * dot(s, t)
-        sl.d[0], on, by_x, by_y = ride_on_spot(race, race.spot, places[0], places[1], sl.d[0])
+        sl.d[0], on, by_x, by_y = spotted_penetration(
+            race, race.spot, places[0], places[1], sl.d[0]
+        )
         twist = times(ball.radius, combine(times(by_x, cross(s, g)), by_y, cross(s, t)))
         by_depth *= on
         along = on * along - dot(twist, b) / distance  # the contact moves away from the spot
         across = on * across + dot(twist, g) / reach
-    lean, spin = (by_depth, along, across), minus(ball.spin, ball.ring_spin)
+    gradient, spin = (by_depth, along, across), minus(ball.spin, ball.ring_spin)
     v = minus(minus(ball.velocity, ball.ring_velocity), cross(ball.ring_spin, ball.centre))
-    sl.v[0] = dot(leaning(lean, n, cross(b, e)), v) + dot(twist, spin)
-    return lean, twist
+    sl.v[0] = dot(gradient_direction(gradient, n, cross(b, e)), v) + dot(twist, spin)
+    return gradient, twist
 
 
 @part
-def leaning(lean, n, g):
+def gradient_direction(gradient, n, g):
     """The direction in which the depth grows, as long as it grows there; t is n x g."""
-    return combine(combine(times(lean[0], n), lean[1], g), lean[2], cross(n, g))
+    return combine(combine(times(gradient[0], n), gradient[1], g), gradient[2], cross(n, g))
 
 
 @part
@@ -189,10 +193,11 @@ def line_of_contact(P, b, race):
 
 
 @part(fastmath=VECTORISED)
-def _slide(race, long, middle, n, g, t, v, spin, sl):
+def _strip_sliding(race, long, middle, n, g, t, v, spin, sl):
     """Sliding velocities of the strips, along the rolling direction and across it."""
     for k in range(race.strip.shape[0]):
         across = race.strip[k] * long
+        # a point of the curved surface of contact, from the ball's centre: v + spin x r
         at = combine(times(middle - 0.5 * race.bend * across * across, n), across, t)
         slip = plus(v, cross(spin, at))
         sl.t1[k], sl.t2[k] = dot(slip, g), dot(slip, t)
@@ -200,13 +205,13 @@ def _slide(race, long, middle, n, g, t, v, spin, sl):
 
 
 @part(fastmath=VECTORISED)
-def _drag(race, long, middle, N, n, g, t, sl):
+def _strip_friction(race, long, middle, N, n, g, t, sl):
     """Friction force of the strips and its moment about the ball's centre."""
     force = moment = (0.0, 0.0, 0.0)
     for k in range(race.strip.shape[0]):
         across = race.strip[k] * long
         at = combine(times(middle - 0.5 * race.bend * across * across, n), across, t)
-        size = -N * race.share[k] * sl.g[k]
+        size = -N * race.share[k] * sl.g[k]  # f = -share N (mu/u) slip
         f = combine(times(size * sl.t1[k], g), size * sl.t2[k], t)
         force = plus(force, f)
         moment = plus(moment, cross(at, f))

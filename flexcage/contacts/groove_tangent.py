@@ -15,10 +15,10 @@ from math import sqrt
 from flexcage.contacts.evaluation import RESIDUAL
 from flexcage.contacts.groove import (
     LEAST_ROLLING,
+    gradient_direction,
     groove_contact,
-    lean_on,
-    leaning,
     line_of_contact,
+    penetration_gradient,
 )
 from flexcage.contacts.state import add_generator, clear, friction_tangent
 from flexcage.core.jit import part
@@ -52,12 +52,12 @@ def groove_tangent(ball, race, laws, sl, pair, sums):
     P, b = ball.centre, ball.axis
     e, n, distance, reach = line_of_contact(P, b, race)
     g = cross(b, e)
-    lean, push, leans = 1.0, (*n, 0.0, 0.0, 0.0), race.uneven + ball.spotted > 0
-    if leans:
+    normal_share, push, uneven = 1.0, (*n, 0.0, 0.0, 0.0), race.uneven + ball.spotted > 0
+    if uneven:
         depth, sl.d[0] = sl.d[0], reach - race.radius + ball.radius
-        by, twist = lean_on(ball, race, (e, n, distance, reach), sl)
-        lean, push, sl.d[0] = by[0], (*leaning(by, n, g), *twist), depth
-    N = sl.N[0] * lean
+        by, twist = penetration_gradient(ball, race, (e, n, distance, reach), sl)
+        normal_share, push, sl.d[0] = by[0], (*gradient_direction(by, n, g), *twist), depth
+    N = sl.N[0] * normal_share
     t = cross(n, g)
     spin = minus(ball.spin, ball.ring_spin)
     v = minus(minus(ball.velocity, ball.ring_velocity), cross(ball.ring_spin, P))
@@ -65,11 +65,11 @@ def groove_tangent(ball, race, laws, sl, pair, sums):
     by_load = _rolling(race, N, n, spin, by_load, pair.C)
     even = (*n, 0.0, 0.0, 0.0)
     # the normal force follows depth and approach, n.P and n.v; the middle of the contact sinks by
-    # half the depth; on an uneven race the depth that counts has its own direction
+    # half the depth; on an uneven race the effective depth has its own direction
     for k in range(6):
-        by_force = lean * by_load[k]
-        if leans:
-            by_force += lean * even[k] - push[k]
+        by_force = normal_share * by_load[k]
+        if uneven:
+            by_force += normal_share * even[k] - push[k]
         by_depth = sl.Nd[0] * by_force - 0.5 * by_middle[k]
         for c in range(3):
             pair.K[k, c] -= by_depth * push[c]

@@ -203,6 +203,7 @@ def other_contact(cage, ring, data, onset, laws, sl, lw, out, sums):
 def dry_contact(cage, ring, data, onset, laws, sl, lw, out, sums):
     """The dry part of ``land_contact``, added to its forces and ``sums``."""
     A, offset = cage.A, minus(xyz(cage.centre), xyz(ring.centre))
+    # a bound of eccentricity, tilt, modes and the ring's waves: can the land touch?
     reach = sqrt(offset[1] * offset[1] + offset[2] * offset[2])
     reach += (abs(A[1, 0]) + abs(A[2, 0])) * abs(data.x[1])
     for m in range(cage.q.shape[0]):
@@ -296,9 +297,9 @@ def _find_extremes(A, data, offset, side, deepest, lw):
     for s in range(n_l):
         following = (s + 1) % n_l
         here, there = lw.rise[s], lw.rise[following]
-        room = 0.25 * (abs(here) + abs(there))
+        bulge = 0.25 * (abs(here) + abs(there))
         near = s == deepest or following == deepest
-        if not near and max(lw.d[s], lw.d[following]) + room <= 0.0:
+        if not near and max(lw.d[s], lw.d[following]) + bulge <= 0.0:
             continue
         rises, turn = here > 0.0, 0.0
         if rises == (there > 0.0):
@@ -338,6 +339,7 @@ def _within(data, offset, side, c, rise):
     d = sqrt(y * y + z * z)
     out = _outwards(data)
     ring = data.radius - out * data.clearance
+    # d = out (R_ring + its waves - distance of c from the ring's axis)
     if data.crest.shape[0] == 0:
         return out * (ring - d), -out * (y * rise[1] + z * rise[2]) / d
     moved, slope, _ = outwards_at(data.crest, data.x[side], y, z)
@@ -421,6 +423,7 @@ def _touch(touch, cage, ring, data, onset, laws, sl, lw, out, sums):
     if data.crest.shape[0] > 0:  # it leans where the ring's radius changes along it
         _, slope, rate = outwards_at(data.crest, x, at[1], at[2])
         n = combine(n, -slope * abs(size), ahead)
+    # velocity of the rigid land less that of the ring's material there, across the ring's axis
     v = plus(minus(xyz(cage.velocity), xyz(ring.velocity)), cross(xyz(cage.spin), c))
     w = ring.turn
     v = (0.0, v[1] + w[0] * at[2] - w[2] * at[0], v[2] - w[0] * at[1] + w[1] * at[0])
@@ -428,6 +431,7 @@ def _touch(touch, cage, ring, data, onset, laws, sl, lw, out, sums):
     if sl.d[0] <= 0.0:
         return sl.v[0]
     normal_forces(laws.normal, (0, 1), sl, data.normal, onset[touch.side])
+    # on the cage: f = N n - mu N along the circumference, by its sliding there
     N = touch.sign * sl.Ne[0] + touch.share * (sl.N[0] - sl.Ne[0])
     rubs = touch.share * sl.N[0]
     slide = dot(ahead, combine(plus(v, times(outwards, e)), forwards, along))
@@ -494,11 +498,12 @@ def _film(cage, ring, data, lw, out, sums):
         lever, ey, ez = minus(plus(xyz(cage.centre), (x, cy, cz)), xyz(ring.centre))
         vy = rel[1] + w2 * data.x[side] * A[0, 0] - w0 * cz - r2 * lever
         vz = rel[2] + w0 * cy - w1 * data.x[side] * A[0, 0] + r1 * lever
-        room = data.clearance - _outwards(data) * widened(data.crest, data.x[side])
-        film = LandFilm(data.viscosity, data.width, data.radius, room)
+        clearance = data.clearance - _outwards(data) * widened(data.crest, data.x[side])
+        film = LandFilm(data.viscosity, data.width, data.radius, clearance)
         sy, sz = shifted(data.crest, data.x[side], PLACE)
         ry, rz = shifted(data.crest, data.x[side], RATE)
         vy, vz = vy - ry, vz - rz
+        # eccentricity and its rate from the ring's circle; half-Sommerfeld film
         fy, fz, size = short_bearing(film, (ey - sy, ez - sz), (vy, vz), spin + w0, abs(spin - w0))
         torque = size if spin > w0 else -size
         _spread_film(A, data, (fy, fz, torque), cage.qd, lw, out.modal, sums)

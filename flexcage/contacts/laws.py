@@ -163,8 +163,8 @@ def decay_coulomb(n, u, p, g, dg):
     """LS-DYNA's mu = f_d + (f_s - f_d) exp(-DC u), with a cubic step from rest to v_static."""
     exponentials(n, u, -p[DECAY], dg)
     for k in range(n):
-        x, apart = u[k], (p[STATIC] - p[DYNAMIC]) * dg[k]
-        mu, dmu = p[DYNAMIC] + apart, -p[DECAY] * apart
+        x, excess = u[k], (p[STATIC] - p[DYNAMIC]) * dg[k]
+        mu, dmu = p[DYNAMIC] + excess, -p[DECAY] * excess
         if x < p[V_STATIC]:
             s = x / p[V_STATIC]
             rise = (3.0 - s * s) / (2.0 * p[V_STATIC])

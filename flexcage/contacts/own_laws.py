@@ -14,12 +14,12 @@ from typing import Any
 import numpy as np
 
 from flexcage.core.errors import InputError
-from flexcage.core.probing import check_reading, with_room, wrong_slopes
+from flexcage.core.probing import check_reading, wrong_slopes, zero_padded
 
 # penetrations [m] and their rates [m/s], sliding speeds [m/s] at which laws are tried
 _DEPTHS = np.geomspace(1e-9, 3e-5, 40)
 _RATES = np.array([-0.5, -0.1, -0.01, 0.0, 0.01, 0.1, 0.5])
-_APART = -np.array([0.0, 1e-9, 1e-6, 1e-3])  # without contact
+_OPEN = -np.array([0.0, 1e-9, 1e-6, 1e-3])  # without contact
 _ONSET = 0.2  # [m/s]
 _SLIDING = np.geomspace(1e-6, 10.0, 240)
 _SPARE = 8  # entries of arrays beyond those that a law is told of
@@ -59,14 +59,14 @@ class _Trial:
 @lru_cache(maxsize=256)
 def check_normal(law: Callable[..., None], name: str, given: tuple[float, ...]) -> None:
     """Raise InputError for a normal law that is none with the parameters ``given``."""
-    what, p = f"Normal law '{name}'", with_room(np.array(given))
+    what, p = f"Normal law '{name}'", zero_padded(np.array(given))
     trial = _Trial(law, what, ("d", "v", "onset"), ("F", "Fe", "Fd", "Fv"))
 
     def at(q: np.ndarray, d: np.ndarray, v: np.ndarray) -> np.ndarray:
         return trial(q, d, v, np.full(len(d), _ONSET))
 
     d, v = (x.ravel() for x in np.meshgrid(_DEPTHS, _RATES))
-    every = np.concatenate([d, _APART]), np.concatenate([v, np.full(len(_APART), 0.1)])
+    every = np.concatenate([d, _OPEN]), np.concatenate([v, np.full(len(_OPEN), 0.1)])
     check_reading(what, lambda q: at(q, *every), np.array(given), where=what)
     found = at(p, *every)
     _check_numbers(what, "F, Fe, Fd and Fv", found, (every[0], "a penetration", "m"))
@@ -107,7 +107,7 @@ def _check_force(
 @lru_cache(maxsize=256)
 def check_friction(law: Callable[..., None], name: str, given: tuple[float, ...]) -> None:
     """Raise InputError for a friction law that is none with the parameters ``given``."""
-    what, p = f"Friction law '{name}'", with_room(np.array(given))
+    what, p = f"Friction law '{name}'", zero_padded(np.array(given))
     trial = _Trial(law, what, ("u",), ("g", "dg"))
     every = np.concatenate([[0.0, 1e-9], _SLIDING])
     check_reading(what, lambda q: trial(q, every), np.array(given), where=what)
@@ -133,9 +133,9 @@ def _check_numbers(
 ) -> None:
     """``along``: what the law was tried at, its name and unit. An overflow far in is none."""
     x, at, unit = along
-    odd = np.isnan(found).any(axis=0) | (np.isinf(found).any(axis=0) & (x <= 0.0))
-    if odd.any():
-        k = int(np.argmax(odd))
+    wrong = np.isnan(found).any(axis=0) | (np.isinf(found).any(axis=0) & (x <= 0.0))
+    if wrong.any():
+        k = int(np.argmax(wrong))
         raise InputError(
             f"{what} gives no finite number at {at} of {x[k]:.3g} {unit}, but must write one into "
             f"every entry of {names}.",

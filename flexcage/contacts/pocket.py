@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from flexcage.contacts.condensation import condense, lean_of_residual, left_out, yielded
+from flexcage.contacts.condensation import add_residual_slope, condense, touches_more, yielded
 from flexcage.contacts.evaluation import DAMPED, REPORT, RUBBED, STORED, TANGENT
 from flexcage.contacts.laws import EXPONENT
 from flexcage.contacts.pocket_forces import (
+    add_crossbeam_forces,
+    add_side_beam_forces,
     crossbeam_rates,
-    push_by_crossbeam,
-    push_by_side_beam,
     relative_motion,
     side_beam_rates,
     spread_over_stations,
@@ -57,19 +57,21 @@ def pocket_contact(i, roller, cage, data, laws, sl, pw, pair, mode, sums):
         zero(pw.slice_T)
         zero(pw.point_N)
         zero(pw.point_T)
+    # depths before the walls' residual deflection, then its coordinates b (``condensation``)
     centre = xyz(D)
     zero(pw.push)
-    looking = True
-    while looking:
+    searching = True
+    while searching:
         if not penetrations(pose, data, i, Rw, centre, q, margin, pw):
             return False
-        looking = False
+        searching = False
         if data.soft != 0:
             condense(data, i, laws, guess, sl, pw)
-            looking = left_out(pw)
+            searching = touches_more(pw)
     zero(pw.st)
     if mode == TANGENT:
         clear_tangent(pw)
+    # roller relative to the cage's body at the roller's centre, in F
     rel, spin = relative_motion(pose, xyz(Vc), xyz(wc), centre)
     any_contact = False
     for f in range(FACES):
@@ -78,11 +80,11 @@ def pocket_contact(i, roller, cage, data, laws, sl, pw, pair, mode, sums):
             place, motion = (pose, Rw, centre[1]), (rel, spin, qd, onset[f])
             _face(i, f, place, motion, data, laws, (sl, pw), pair, mode, sums)
     if mode == TANGENT and any_contact:
-        if data.soft != 0:
+        if data.soft != 0:  # b is condensed out of K
             soften(RIGID + data.phi_max.shape[0], pw)
         give_pair(pw, pair)
     elif mode >= REPORT and data.soft != 0:
-        for l in range(pw.b.shape[0]):
+        for l in range(pw.b.shape[0]):  # shapes of unit compliance: a wall stores b . b/2
             sums[STORED] += 0.5 * pw.b[l] * pw.b[l]
     return any_contact
 
@@ -95,7 +97,7 @@ def _press(data, f, sl, pw):
         if pw.live[f] == 0:
             return False
         yielded(span, pw.face[f], pw, sl)
-        lean_of_residual(f, pw)
+        add_residual_slope(f, pw)
     else:
         for k in range(span[0], span[1]):
             sl.d[k] = pw.face[f].d0[k]
@@ -133,9 +135,9 @@ def _face(i, f, place, motion, data, laws, work, pair, mode, sums):
     normal_forces(normal, span, sl, p, onset)
     friction_factors(friction, span, sl, data.friction[kind])
     if f < SIDES:
-        push_by_crossbeam(data, f, span, Rw, a, face, sl, pw, pair.wrench)
+        add_crossbeam_forces(data, f, span, Rw, a, face, sl, pw, pair.wrench)
     else:
-        push_by_side_beam(pose, data, f, distance, sl, pw, pair)
+        add_side_beam_forces(pose, data, f, distance, sl, pw, pair)
     spread_over_stations(span, f, face, sl, pw)
     give_stations(f, pw)
     if mode == TANGENT:

@@ -1,8 +1,9 @@
 """Forces between a roller and the four walls of its pocket, slice by slice or point by point.
 
-The normal force leans with the wall's slope along the face, so that it is the slope of an energy;
-a crossbeam's slope acts at the roller's axis. Crossbeams (faces 0, 1) are touched at any time and
-evaluated in pocket axes, all slices at once; side beams (2, 3) rarely, one point after another.
+The normal force inclines with the wall's slope along the face, so that it is the slope of an
+energy; a crossbeam's slope acts at the roller's axis. Crossbeams (faces 0, 1) are touched at any
+time and evaluated in pocket axes, all slices at once; side beams (2, 3) rarely, one point after
+another.
 """
 
 from __future__ import annotations
@@ -40,6 +41,7 @@ def crossbeam_rates(data, f, span, Rw, a, rel, spin, face, sl, pw):
     for k in range(span[0], span[1]):
         s, h, slope = data.s[k], sgn * (Rw - data.drop[k]), face.slope[k]
         along = v0[0] + s * v1[0] - face.rate[0, k]
+        # d' = sgn (v_psi - wall's) - slope (v_x - wall's); then sliding along x and r
         sl.v[k] = sgn * (v0[2] + s * v1[2] - face.rate[2, k]) - slope * along
         sl.t1[k] = along + h * v2[0]
         sl.t2[k] = v0[1] + s * v1[1] + h * v2[1] - face.rate[1, k]
@@ -47,7 +49,7 @@ def crossbeam_rates(data, f, span, Rw, a, rel, spin, face, sl, pw):
 
 
 @part(fastmath=VECTORISED)
-def push_by_crossbeam(data, f, span, Rw, a, face, sl, pw, wrench):
+def add_crossbeam_forces(data, f, span, Rw, a, face, sl, pw, wrench):
     """Add the forces of crossbeam face f to the roller's wrench and to the face's sums."""
     sgn = 1.0 if f % 2 == 0 else -1.0
     axis = turned(pw.G, a)
@@ -57,6 +59,7 @@ def push_by_crossbeam(data, f, span, Rw, a, face, sl, pw, wrench):
         N, slope = sl.N[k], face.slope[k]
         on_axis = times(data.s[k], axis)
         r = (on_axis[0], on_axis[1], on_axis[2] + sgn * (Rw - data.drop[k]))
+        # N (-sgn e_psi - (mu/u) (t1 e_x + t2 e_r)) at the surface, N slope e_x at the axis
         f_surface = times(N, (-sl.g[k] * sl.t1[k], -sl.g[k] * sl.t2[k], -sgn))
         f_axis = (N * slope, 0.0, 0.0)
         force = plus(force, plus(f_surface, f_axis))
@@ -115,11 +118,11 @@ def lever_of_slice(pose, data, Rw, f, k, pw):
 
 @part
 def normal_generator(pose, data, distance, f, k, n, r, pw, out):
-    """Generator of the normal force of slice k of face f, leaning with the wall's slope."""
+    """Generator of the normal force of slice k of face f, inclined by the wall's slope."""
     slope = pw.face[f].slope[k]
     if f >= SIDES:
-        leaning = combine(n, slope, row(pw.G, 2))
-        add_end_generator(leaning, r, row(pose.axis, 0), distance, out)
+        inclined = combine(n, slope, row(pw.G, 2))
+        add_end_generator(inclined, r, row(pose.axis, 0), distance, out)
         return
     add_generator(n, r, out)
     along = times(slope, row(pw.G, 0))
@@ -151,7 +154,7 @@ def side_beam_rates(pose, data, f, distance, rel, spin, sl, pw, pair):
 
 
 @part
-def push_by_side_beam(pose, data, f, distance, sl, pw, pair):
+def add_side_beam_forces(pose, data, f, distance, sl, pw, pair):
     """Add the forces of side-beam face f to the roller's wrench and to the face's sums."""
     n, e1, e2 = axes_of_face(pw, f)
     Wn = pair.W[0]

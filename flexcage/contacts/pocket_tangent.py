@@ -40,6 +40,7 @@ def add_tangent(pose, data, i, f, Rw, distance, sl, pw):
         _add_modes(data, i, f, k, pw.face[f], pw.gen)
         for l in range(size - moving):
             normal[moving + l] = pw.face[f].R[l, k]
+        # K: of elastic forces on residual coordinates, and of all force on the others
         _add_product(moving, size, elastic, normal, normal, size, pw.K)
         if N <= 0.0:
             continue

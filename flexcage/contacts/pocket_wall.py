@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from flexcage.contacts.laws import N_FRICTION, N_NORMAL
-from flexcage.contacts.slices import ROOM, largest
+from flexcage.contacts.slices import CAPACITY, largest
 from flexcage.contacts.state import CageModes, RollerPose
 from flexcage.core.jit import VECTORISED, part
 from flexcage.core.splines import smooth_weights
@@ -62,16 +62,16 @@ class PocketData(NamedTuple):
 
 FACE = np.dtype(
     [
-        ("d0", np.float64, ROOM),  # penetration before the residual deflection
-        ("top", np.float64, ROOM // BLOCK),  # its largest value of every block of slices
-        ("slope", np.float64, ROOM),  # of the wall's offset along the face
-        ("x", np.float64, ROOM),  # place on the wall, in stations
-        ("j", np.int64, ROOM),  # first of the four stations that a slice reads
-        ("w", np.float64, (4, ROOM)),  # their weights
-        ("ws", np.float64, (4, ROOM)),  # slopes of the weights along the face [1/m]
-        ("R", np.float64, (N_LOCAL, ROOM)),  # residual shapes under the slices
-        ("rate", np.float64, (3, ROOM)),  # velocity of the wall there (x, r, psi)
-        ("read", np.float64, ROOM),  # what slices have read
+        ("d0", np.float64, CAPACITY),  # penetration before the residual deflection
+        ("top", np.float64, CAPACITY // BLOCK),  # its largest value of every block of slices
+        ("slope", np.float64, CAPACITY),  # of the wall's offset along the face
+        ("x", np.float64, CAPACITY),  # place on the wall, in stations
+        ("j", np.int64, CAPACITY),  # first of the four stations that a slice reads
+        ("w", np.float64, (4, CAPACITY)),  # their weights
+        ("ws", np.float64, (4, CAPACITY)),  # slopes of the weights along the face [1/m]
+        ("R", np.float64, (N_LOCAL, CAPACITY)),  # residual shapes under the slices
+        ("rate", np.float64, (3, CAPACITY)),  # velocity of the wall there (x, r, psi)
+        ("read", np.float64, CAPACITY),  # what slices have read
         ("j_least", np.int64),  # of the span
         ("j_most", np.int64),
     ],
@@ -92,7 +92,7 @@ class PocketWork(NamedTuple):
     rest: np.ndarray  # (4,) bound of that of what is left out of the span; not near: of all
     push: np.ndarray  # (4,) the most by which the residual deflection may add to them
     wall: np.ndarray  # (3, n4 + 2) displacement or velocity (x, r, psi) of a face's stations
-    lean: np.ndarray  # (4, nst + 2) residual deflection of the faces' stations
+    deflection: np.ndarray  # (4, nst + 2) residual deflection of the faces' stations
     spread: np.ndarray  # (3, nst + 2) forces on a face's stations
     st: np.ndarray  # (4, nst, 3) forces on the cage, pocket axes
     normal: np.ndarray  # (4,) sums of the faces
@@ -160,7 +160,7 @@ def pocket_work(n_slices: int, n_points: int, n_stations: int, n_modes: int) -> 
         z(4, np.int64), z(4), z(4), z(4), z((3, filled(st, 4) + 2)), z((4, st + 2)),
         z((3, st + 2)), z((4, st, 3)), z(4), z(4),
         z((2, n_slices)), z((2, n_slices)), z((2, n_points)), z((2, n_points)),
-        z(m), z(1, np.int64), z(m), z(m), z((m, m)), z(ROOM),
+        z(m), z(1, np.int64), z(m), z(m), z((m, m)), z(CAPACITY),
         z((4, whole)), z((whole, whole)), z((whole, whole)),
     )  # fmt: skip
 
@@ -284,6 +284,7 @@ def penetrations(pose, data, i, Rw, D, q, margin, pw):
     slice in ``pw.span``. No station moves by more than ``margin``, and no curve through them by
     more than twice that.
     """
+    # the roller's centre and axes along the pocket's x and psi
     X, T = dot(row(pw.G, 0), D), dot(row(pw.G, 2), D)
     a0, a1, a2 = row(pose.axis, 0), row(pose.axis, 1), row(pose.axis, 2)
     ax = (dot(row(pw.G, 0), a0), dot(row(pw.G, 0), a1), dot(row(pw.G, 0), a2))
@@ -297,6 +298,7 @@ def penetrations(pose, data, i, Rw, D, q, margin, pw):
         else:
             tilt = (abs(ax[1]) + abs(ax[2])) * Rw
             gap = data.half[1] + data.low[i, f] - sgn * X - tilt - data.half_roller
+        # three bounds of the depth, each tighter and dearer: extent, profile, stations
         pw.near[f] = 0
         pw.deep[f] = pw.rest[f] = 2.0 * margin - gap
         if pw.deep[f] + pw.push[f] <= 0.0:
@@ -324,7 +326,7 @@ def penetrations(pose, data, i, Rw, D, q, margin, pw):
         _weigh(span, n_st, data.dx[f], face)
         read_values(span, face.w, face, pw.wall[across], face.read)
         read_values(span, face.ws, face, pw.wall[across], face.slope)
-        for k in range(span[0], span[1]):
+        for k in range(span[0], span[1]):  # outwards by sgn u: less depth, and a slope
             face.d0[k] -= sgn * face.read[k]
             face.slope[k] *= sgn
         if data.bent[i, f] != 0:

@@ -21,9 +21,9 @@ from flexcage.contacts.evaluation import (
     TRACTION,
 )
 from flexcage.contacts.laws import EXPONENT, rolling_forces
-from flexcage.contacts.roller_spot import push_by_spot, sink_on_spot, spot_generator
+from flexcage.contacts.roller_spot import add_spot_depth, add_spot_wrench, spot_generator
 from flexcage.contacts.slices import (
-    ROOM,
+    CAPACITY,
     friction_factors,
     friction_power,
     largest,
@@ -45,7 +45,7 @@ from flexcage.contacts.state import (
     clear,
     friction_tangent,
 )
-from flexcage.contacts.uneven import sunk_at, wave_at
+from flexcage.contacts.uneven import spall_depth, wave_at
 from flexcage.core.jit import VECTORISED, outlined, part, zero
 from flexcage.core.vectors import combine, cross, dot, minus, plus, row, times, xyz
 
@@ -87,7 +87,7 @@ class RaceWork(NamedTuple):
 
 
 def race_work(slices: int) -> RaceWork:
-    most = ROOM // slices
+    most = CAPACITY // slices
     z = np.zeros
     return RaceWork(
         new_slices().row, z(most, np.int64), z((most, 4, 3)), z(most), z(most), z(most), z(most),
@@ -105,7 +105,7 @@ class RollerAxis(NamedTuple):
 
 
 @part
-def meet_race(m, pose, side, Rw, theta, onset, rw):
+def race_penetrations(m, pose, side, Rw, theta, onset, rw):
     """Whether a roller touches a raceway: geometry and motion of contact m of the lot ``rw``.
 
     ``rw.partner[m]`` is given. ``theta``: the ring's spin angle (waves,
@@ -114,11 +114,11 @@ def meet_race(m, pose, side, Rw, theta, onset, rw):
     sl, partner = rw.lot[0], rw.partner[m]
     centre, ring_axis, ring_spin = row(partner, CENTRE), row(partner, AXIS), row(partner, SPIN)
     a = row(pose.axis, 0)
-    # what of the roller's axis at s is perpendicular to the ring's axis: x0 + s x1
+    # in F: the roller's axis at s, across the ring's axis and from it, is x0 + s x1
     x0 = combine(centre, -dot(centre, ring_axis), ring_axis)
     x1 = combine(a, -dot(a, ring_axis), ring_axis)
     n = side.s.shape[0]
-    # quick look: is any slice near the race?
+    # a bound first: can any slice reach the race?
     slope = abs(a[1]) + abs(a[2]) + abs(ring_axis[1]) + abs(ring_axis[2])
     gap = side.sign * (sqrt(dot(x0, x0)) - side.radius) - Rw
     if gap > abs(side.s[n - 1]) * slope + side.wave[0]:
@@ -128,11 +128,11 @@ def meet_race(m, pose, side, Rw, theta, onset, rw):
     v0 = minus(minus(xyz(pose.V), row(partner, VELOCITY)), cross(ring_spin, centre))
     first = np.uint64(m * n)
     line = RollerAxis(x0, x1, v0, cross(spin, a))
-    _meet(first, side, Rw, onset, ring_axis, line, spin, sl)
+    _penetrations(first, side, Rw, onset, ring_axis, line, spin, sl)
     if side.uneven:
-        _ride(first, pose, side, sqrt(dot(x0, x0)), ring_spin[0], theta, sl)
+        _add_unevenness(first, pose, side, sqrt(dot(x0, x0)), ring_spin[0], theta, sl)
     if pose.spot[0] > 0.0:
-        sink_on_spot(first, pose, side, line, ring_axis, spin, sl)
+        add_spot_depth(first, pose, side, line, ring_axis, spin, sl)
     if largest((first, first + np.uint64(n)), sl.d) <= 0.0:
         return False
     # the surfaces' speeds along e_psi, seen from the contact, which moves with the orbit
@@ -144,14 +144,14 @@ def meet_race(m, pose, side, Rw, theta, onset, rw):
 
 
 @part
-def press_race(count, side, laws, rw):
+def race_forces(count, side, laws, rw):
     """Forces of all ``count`` contacts of the lot ``rw``."""
     normal_forces_of_lot(laws.normal, (0, count * side.s.shape[0]), rw.lot[0], side.normal)
-    rub_race(count, side, laws, rw)
+    race_friction(count, side, laws, rw)
 
 
 @part
-def rub_race(count, side, laws, rw):
+def race_friction(count, side, laws, rw):
     """Friction and rolling resistance of the lot's contacts under their normal forces."""
     sl, n = rw.lot[0], side.s.shape[0]
     friction_factors(laws.friction, (0, count * n), sl, side.friction)
@@ -162,7 +162,7 @@ def rub_race(count, side, laws, rw):
 
 
 @part
-def push_by_race(m, pose, side, Rw, theta, rw, pair, mode, sums):
+def race_wrench(m, pose, side, Rw, theta, rw, pair, mode, sums):
     """Wrench on the roller of contact m.
 
     ``mode`` (``evaluation``): from REPORT on with ``sums``: normal, traction, moments about e_r
@@ -175,7 +175,7 @@ def push_by_race(m, pose, side, Rw, theta, rw, pair, mode, sums):
     a, n = row(pose.axis, 0), side.s.shape[0]
     first = np.uint64(m * n)
     span = (first, first + np.uint64(n))
-    _push(first, side, Rw, a, ring_axis, sl, pair.wrench)
+    _add_forces(first, side, Rw, a, ring_axis, sl, pair.wrench)
     if mode >= REPORT:
         zero(sums)
         sums[NORMAL], sums[RUBBED] = rw.load[m], friction_power(span, sl)
@@ -183,9 +183,9 @@ def push_by_race(m, pose, side, Rw, theta, rw, pair, mode, sums):
         if mode == REPORT:
             _report(first, side, Rw, a, sl, sums)
     if side.uneven:
-        _lean(first, pose, side, centre, ring_axis, theta, sl, pair, mode, sums)
+        _add_slope_forces(first, pose, side, centre, ring_axis, theta, sl, pair, mode, sums)
     if pose.spot[0] > 0.0:
-        push_by_spot(first, pose, side, partner, sl, pair, mode, sums)
+        add_spot_wrench(first, pose, side, partner, sl, pair, mode, sums)
     if mode == TANGENT:
         _tangent(first, pose, side, Rw, partner, theta, sl, pair)
     if side.rolling[0] > 0.0:
@@ -199,7 +199,7 @@ def push_by_race(m, pose, side, Rw, theta, rw, pair, mode, sums):
 
 
 @part(fastmath=VECTORISED)
-def _meet(first, side, Rw, onset, ring_axis, line, spin, sl):
+def _penetrations(first, side, Rw, onset, ring_axis, line, spin, sl):
     """Penetration, its rate, normal and sliding velocity of every slice on a round race."""
     x0, x1, v0, v1 = line
     for k in range(side.s.shape[0]):
@@ -207,24 +207,27 @@ def _meet(first, side, Rw, onset, ring_axis, line, spin, sl):
         x = combine(x0, s, x1)
         distance = sqrt(dot(x, x))
         n = times(side.sign / distance, x)
+        # d = (Rw - drop) - sign (|x| - R): overlap of profile and race along n
         sl.d[at] = Rw - side.drop[k] - side.sign * (distance - side.radius)
         sl.onset[at] = onset
         sl.n1[at], sl.n2[at], sl.n3[at] = n
         v = combine(v0, s, v1)
-        sl.v[at] = -dot(n, v)
-        v = combine(v, side.drop[k] - Rw, cross(spin, n))  # of its surface
+        sl.v[at] = -dot(n, v)  # d' = -n . v of the axis: rotation moves the surface along the race
+        # sliding of the surface, at -(Rw - drop) n from the axis: along b and along b x e_d
+        v = combine(v, side.drop[k] - Rw, cross(spin, n))
         along, across = dot(v, ring_axis), side.sign * dot(v, cross(ring_axis, n))
         sl.t1[at], sl.t2[at] = along, across
         sl.u[at] = sqrt(along * along + across * across)
 
 
 @part(fastmath=VECTORISED)
-def _push(first, side, Rw, a, ring_axis, sl, wrench):
+def _add_forces(first, side, Rw, a, ring_axis, sl, wrench):
     """Add the slices' forces to the wrench."""
     force = moment = (0.0, 0.0, 0.0)
     for k in range(side.s.shape[0]):
         at = first + np.uint64(k)
         n = (sl.n1[at], sl.n2[at], sl.n3[at])
+        # f = N (n - (mu/u) (t1 b + t2 b x e_d)) at s a - (Rw - drop) n, in F
         f = combine(n, -sl.g[at] * sl.t1[at], ring_axis)
         f = times(sl.N[at], combine(f, -sl.g[at] * sl.t2[at] * side.sign, cross(ring_axis, n)))
         r = combine(times(side.s[k], a), side.drop[k] - Rw, n)
@@ -266,13 +269,13 @@ def _unevenness(side, phi, k):
     """How much larger the race's radius is at azimuth ``phi`` [rad] on the ring, under slice k,
     and its slope over phi [m, m/rad]."""
     rise, slope = wave_at(side.wave, phi)
-    sunk, steep = sunk_at(side.spall, phi)
+    sunk, steep = spall_depth(side.spall, phi)
     outwards = -side.sign * side.spalled[k]
     return rise + outwards * sunk, slope + outwards * steep
 
 
 @part
-def _ride(first, pose, side, distance, ring_spin, theta, sl):
+def _add_unevenness(first, pose, side, distance, ring_spin, theta, sl):
     """What an uneven race adds to penetrations and their rates; ``distance`` of the roller's axis
     from the ring's."""
     turn = pose.V[2] / distance - ring_spin
@@ -280,26 +283,29 @@ def _ride(first, pose, side, distance, ring_spin, theta, sl):
         at = first + np.uint64(k)
         phi = theta_at(pose, side.sign * sl.n2[at], side.sign * sl.n3[at]) - theta
         rise, slope = _unevenness(side, phi, k)
+        # a race of radius R + rise(phi): d and d' change by sign rise and sign rise' phi'
         sl.d[at] += side.sign * rise
         sl.v[at] += side.sign * slope * turn
 
 
 @part
-def _incline(pose, side, P, n, theta, k):
+def _slope_along_race(pose, side, P, n, theta, k):
     """Slope of the penetration along the race, dd/(d dtheta), on an uneven race."""
     phi = theta_at(pose, side.sign * n[1], side.sign * n[2]) - theta
     return side.sign * _unevenness(side, phi, k)[1] / sqrt(P[1] * P[1] + P[2] * P[2])
 
 
 @part
-def _lean(first, pose, side, P, b, theta, sl, pair, mode, sums):
+def _add_slope_forces(first, pose, side, P, b, theta, sl, pair, mode, sums):
     """What an uneven race's slope adds: its energy depends on the azimuth of the roller's axis, so
     that share of the force acts there."""
     a = row(pose.axis, 0)
     for k in range(side.s.shape[0]):
         at = first + np.uint64(k)
         n = (sl.n1[at], sl.n2[at], sl.n3[at])
-        f = times(-sl.N[at] * _incline(pose, side, P, n, theta, k) * side.sign, cross(b, n))
+        slope = _slope_along_race(pose, side, P, n, theta, k)
+        # f = -N dd/d(along) b x e_d: minus the slope of the elastic energy
+        f = times(-sl.N[at] * slope * side.sign, cross(b, n))
         on_axis = times(side.s[k], a)
         add_wrench(pair.wrench, f, on_axis)
         if mode == REPORT:
@@ -321,7 +327,7 @@ def _tangent(first, pose, side, Rw, partner, theta, sl, pair):
         t = times(side.sign, cross(b, n))
         on_axis = times(side.s[k], a)
         r = combine(on_axis, side.drop[k] - Rw, n)
-        slope = _incline(pose, side, P, n, theta, k) if side.uneven else 0.0
+        slope = _slope_along_race(pose, side, P, n, theta, k) if side.uneven else 0.0
         g1, g2 = sl.g[at] * sl.t1[at], sl.g[at] * sl.t2[at]
         add_generator(t, on_axis, Wt)
         add_generator(n, r, Wn)
@@ -331,6 +337,7 @@ def _tangent(first, pose, side, Rw, partner, theta, sl, pair):
             spot_generator(k, n, pose, side, partner, Wn)
         add_generator(t, r, Wt)
         add_generator(b, r, Wx)
+        # generators (f, r x f): K = dN/dd Wf Wn^T, C = dN/dd' Wf Wn^T + friction's own
         for j in range(6):
             Wf[j] = Wn[j] - g1 * Wx[j] - g2 * Wt[j]
         add_outer(pair.K, sl.Nd[at], Wf, Wn)

@@ -59,11 +59,12 @@ def rib_contact(pose, ring, data, onset, laws, sl, pair, mode, sums):
         zero(sums)
     centre, ring_axis, ring_spin = row(ring, CENTRE), row(ring, AXIS), row(ring, SPIN)
     a0, a1, a2 = row(pose.axis, 0), row(pose.axis, 1), row(pose.axis, 2)
-    along = dot(centre, ring_axis)
+    along = dot(centre, ring_axis)  # in F, from the ring's centre
     tilt = abs(a0[1] - ring_axis[1]) + abs(a0[2] - ring_axis[2])
     play = data.half_gap - data.half_roller
-    if abs(along) + 2.0 * tilt * data.half_roller < play:
+    if abs(along) + 2.0 * tilt * data.half_roller < play:  # a bound: no point reaches a rib
         return False
+    # motion relative to the ring's material at the roller's centre; e1 and e2 span the rib's plane
     spin = minus(xyz(pose.w), ring_spin)
     rel = minus(minus(xyz(pose.V), row(ring, VELOCITY)), cross(ring_spin, centre))
     d = sqrt(1.0 - ring_axis[2] * ring_axis[2])
@@ -79,6 +80,7 @@ def rib_contact(pose, ring, data, onset, laws, sl, pair, mode, sums):
         for k in range(count):
             r = combine(times(sgn * data.half_roller, a0), data.points[k, 0], a1)
             r = combine(r, data.points[k, 1], a2)
+            # d = sgn x - half_gap, x of the point along the ring's axis: ribs are flat
             sl.d[k] = sgn * (along + dot(r, ring_axis)) - data.half_gap
             sl.v[k] = sl.u[k] = 0.0
             if sl.d[k] > 0.0:
@@ -102,6 +104,7 @@ def rib_contact(pose, ring, data, onset, laws, sl, pair, mode, sums):
             add_end_generator(n, r, a0, centre[1], Wn)
             add_generator(e1, r, W1)
             add_generator(e2, r, W2)
+            # generators (f, r x f): V = Wn - (mu/u) (t1 W1 + t2 W2), wrench N V
             for c in range(6):
                 V[c] = Wn[c] - sl.g[k] * (sl.t1[k] * W1[c] + sl.t2[k] * W2[c])
                 pair.wrench[c] += N * V[c]

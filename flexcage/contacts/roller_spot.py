@@ -14,7 +14,7 @@ import numpy as np
 
 from flexcage.contacts.evaluation import MOMENT_PSI, MOMENT_R, REPORT
 from flexcage.contacts.state import AXIS, CENTRE, MOMENT, add_force_and_moment
-from flexcage.contacts.uneven import sunk_at
+from flexcage.contacts.uneven import spall_depth
 from flexcage.core.jit import part
 from flexcage.core.vectors import combine, cross, dot, plus, row, times
 
@@ -39,7 +39,7 @@ def spot_turn(pose, side, n, b, distance):
     across = combine(times(-1.0, n), -along, a)  # towards the contact
     size = sqrt(dot(across, across))
     angle = np.arctan2(dot(across, row(pose.axis, 2)), dot(across, row(pose.axis, 1)))
-    sunk, slope = sunk_at(side.spot, angle - pose.spot[1])
+    sunk, slope = spall_depth(side.spot, angle - pose.spot[1])
     t = cross(b, n)
     push = -side.sign * dot(t, cross(a, across)) / (distance * size * size)
     turn = combine(times(-1.0, a), along / (size * size), across)
@@ -47,7 +47,7 @@ def spot_turn(pose, side, n, b, distance):
 
 
 @part
-def sink_on_spot(first, pose, side, line, ring_axis, spin, sl):
+def add_spot_depth(first, pose, side, line, ring_axis, spin, sl):
     """What the roller's spot takes from penetrations and their rates; ``line`` is a
     ``race.RollerAxis``, ``spin`` that of the roller less the ring's."""
     for k in range(side.s.shape[0]):
@@ -74,7 +74,7 @@ def spot_generator(k, n, pose, side, partner, out):
 
 
 @part
-def push_by_spot(first, pose, side, partner, sl, pair, mode, sums):
+def add_spot_wrench(first, pose, side, partner, sl, pair, mode, sums):
     """Add what the spot's slope pushes to the pair's wrench, and its moments to ``sums``."""
     added = pair.W[0]
     for k in range(side.s.shape[0]):

@@ -14,7 +14,7 @@ import numpy as np
 
 from flexcage.core.jit import VECTORISED, array_from, part
 
-ROOM = 136  # slices of one contact (128 at the most) or of a lot of them: what a near cache
+CAPACITY = 136  # slices of one contact (128 at the most) or of a lot of them: what a near cache
 # holds, and no power of two, at which distance buffers share the cache's places
 _NAMES = (
     "d",  # penetration
@@ -50,7 +50,7 @@ class Slices(NamedTuple):
 
 
 def new_slices() -> Slices:
-    record = np.dtype([(name, np.float64, ROOM) for name in _NAMES], align=True)
+    record = np.dtype([(name, np.float64, CAPACITY) for name in _NAMES], align=True)
     return Slices(np.zeros(1, record).view(np.recarray))
 
 

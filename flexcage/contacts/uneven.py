@@ -4,7 +4,7 @@ An element feels an edge over the width of its contact, not at a line: how far i
 over that width (``spread``). So forces have no jumps, where an element stands on both edges of a
 short spall there is an equilibrium, and integrators see what they step over.
 
-Balls ride on an uneven groove by ``ride``. Their contact is seen as a row of strips across the
+``effective_penetration`` of a ball in an uneven groove: its contact is a row of strips across the
 ellipse, each of which presses in proportion to its own depth d - y^2/c^2 at y across, for c half of
 the ellipse's length over the root of d. That is Hertz's force, energy and distribution of load,
 exactly. A spall takes its own depth from the strips that lie over it; so an ellipse that is wider
@@ -65,7 +65,7 @@ def wave_at(wave, phi):
 
 
 @part
-def sunk_at(spall, phi):
+def spall_depth(spall, phi):
     """How far an element sinks into a spall, >= 0, and its slope over phi [m, m/rad].
 
     Its centre goes down by (l - |x|)^2/(2 R) at a distance x from the spall's middle, as it turns
@@ -73,30 +73,30 @@ def sunk_at(spall, phi):
     """
     half, middle, depth, bend, felt = spall
     off = (phi - middle + pi) % (2.0 * pi) - pi
-    return sunk_beside(off, half, depth, bend, felt)
+    return spall_depth_from_middle(off, half, depth, bend, felt)
 
 
 @part
-def sunk_beside(off, half, depth, bend, felt):
+def spall_depth_from_middle(off, half, depth, bend, felt):
     """The same at ``off`` from the middle; all along the race by one measure, angle or length."""
     if abs(off) >= half + felt:
         return 0.0, 0.0
     before, after = off - felt, off + felt
-    sunk = _filled(after, half, depth, bend) - _filled(before, half, depth, bend)
-    rise = _sharp(after, half, depth, bend) - _sharp(before, half, depth, bend)
+    sunk = _depth_integral(after, half, depth, bend) - _depth_integral(before, half, depth, bend)
+    rise = _sharp_depth(after, half, depth, bend) - _sharp_depth(before, half, depth, bend)
     return sunk / (2.0 * felt), rise / (2.0 * felt)
 
 
 @part
-def _sharp(x, half, depth, bend):
+def _sharp_depth(x, half, depth, bend):
     """How far an element sinks that feels an edge at a line."""
     beyond = max(half - abs(x), 0.0)
     return min(bend * beyond * beyond, depth)
 
 
 @part
-def _filled(x, half, depth, bend):
-    """Integral of ``_sharp`` from the middle to x."""
+def _depth_integral(x, half, depth, bend):
+    """Integral of ``_sharp_depth`` from the middle to x."""
     wall = min(sqrt(depth / bend), half)  # from the edge to the bottom
     beyond = max(half - abs(x), 0.0)
     if beyond >= wall:
@@ -106,8 +106,8 @@ def _filled(x, half, depth, bend):
 
 
 @outlined
-def ride(race, phi, place, depth):
-    """Depth that counts of a ball at azimuth ``phi`` on its ring [rad] and angle ``place`` across
+def effective_penetration(race, phi, place, depth):
+    """Effective depth of a ball at azimuth ``phi`` on its ring [rad] and angle ``place`` across
     the groove, which would press by ``depth`` into an even one; and its slopes over depth, phi and
     place. < 0: it does not touch.
 
@@ -115,54 +115,55 @@ def ride(race, phi, place, depth):
     those over it, that press by less. So forces are the slopes of one energy.
     """
     rise, turn = wave_at(race.wave, phi)
-    sunk, steep = sunk_at(race.spall, phi)
+    sunk, steep = spall_depth(race.spall, phi)
     depth -= race.side * rise
     turn *= -race.side
     low, high = race.radius * (race.sides[0] - place), race.radius * (race.sides[1] - place)
-    counts, by_depth, by_sunk, by_shift = _press(race.reach, low, high, sunk, depth)
-    return counts, by_depth, by_depth * turn + by_sunk * steep, -race.radius * by_shift
+    effective, by_depth, by_sunk, by_shift = _effective_depth(race.reach, low, high, sunk, depth)
+    return effective, by_depth, by_depth * turn + by_sunk * steep, -race.radius * by_shift
 
 
 @outlined
-def ride_on_spot(race, spot, along, across, depth):
+def spotted_penetration(race, spot, along, across, depth):
     """The same of a ball whose spot has its middle ``along`` and ``across`` the groove from the
     contact [m]; slopes over depth and both places. ``spot`` (4,): half of its length and width, its
     depth, the drop over the square of a length, and half of that over which an edge is felt."""
     half, deep, bend, felt = spot
-    sunk, steep = sunk_beside(along, half, deep, bend, felt)
-    counts, by_depth, by_sunk, by_shift = _press(
+    sunk, steep = spall_depth_from_middle(along, half, deep, bend, felt)
+    effective, by_depth, by_sunk, by_shift = _effective_depth(
         race.reach, across - half, across + half, sunk, depth
     )
-    return counts, by_depth, by_sunk * steep, by_shift
+    return effective, by_depth, by_sunk * steep, by_shift
 
 
 @part
-def _press(c, low, high, sunk, depth):
-    """Depth that counts where strips from ``low`` to ``high`` across [m] press by ``sunk`` less
+def _effective_depth(c, low, high, sunk, depth):
+    """Effective depth where strips from ``low`` to ``high`` across [m] press by ``sunk`` less
     than ``depth``; its slopes over depth, sunk and a shift of both sides."""
     if sunk <= 0.0 or depth <= 0.0:
         return depth, 1.0, 0.0, 0.0
     within = max(depth - sunk, 0.0)
-    energy, force = _between(low, high, c * sqrt(depth))
+    # of all strips: energy ~ d^2.5 and force ~ d^1.5 (Hertz), with the spall's at their own depth
+    energy, force = _strip_shares(low, high, c * sqrt(depth))
     on, bears = depth**2.5 * (1.0 - energy), depth * sqrt(depth) * (1.0 - force)
-    energy, force = _between(low, high, c * sqrt(within)) if within > 0.0 else (0.0, 0.0)
+    energy, force = _strip_shares(low, high, c * sqrt(within)) if within > 0.0 else (0.0, 0.0)
     on += within**2.5 * energy
-    inside = within * sqrt(within) * force
+    within_spall = within * sqrt(within) * force
     if on <= LEAST_SHARE * depth**2.5:
         return depth - sunk, 1.0, -1.0, 0.0
-    counts = on**0.4
-    scale = 1.0 / (counts * sqrt(counts))
-    across = _missing(low, depth, within, c), _missing(high, depth, within, c)
+    effective = on**0.4  # an even race stores as much at this depth
+    scale = 1.0 / (effective * sqrt(effective))
+    across = _energy_at_edge(low, depth, within, c), _energy_at_edge(high, depth, within, c)
     return (
-        counts,
-        (bears + inside) * scale,
-        -inside * scale,
+        effective,
+        (bears + within_spall) * scale,
+        -within_spall * scale,
         0.4 * (across[0] - across[1]) * scale,
     )
 
 
 @part
-def _between(low, high, half):
+def _strip_shares(low, high, half):
     """Shares of a contact's energy and force in its strips from ``low`` to ``high`` across [m], for
     half of the ellipse's length: 15/16 (1 - s^2)^2 ds and 3/4 (1 - s^2) ds."""
     a, b = min(max(low / half, -1.0), 1.0), min(max(high / half, -1.0), 1.0)
@@ -173,8 +174,8 @@ def _between(low, high, half):
 
 
 @part
-def _missing(y, depth, within, c):
+def _energy_at_edge(y, depth, within, c):
     """What a spall's side at y takes: the difference of the energies there, per length across."""
     lower = y * y / (c * c)
-    beside, inside = max(depth - lower, 0.0), max(within - lower, 0.0)
-    return 15.0 / 16.0 / c * (beside * beside - inside * inside)
+    beside, within_spall = max(depth - lower, 0.0), max(within - lower, 0.0)
+    return 15.0 / 16.0 / c * (beside * beside - within_spall * within_spall)

@@ -1,4 +1,4 @@
-"""The one door of arrays and sparse matrices in .npz files, whoever wrote them.
+"""Arrays and sparse matrices in .npz files, whoever wrote them: the only code that reads them.
 
 No pickle is opened, sizes are known before memory is taken, and a sparse matrix is checked whole:
 SciPy's compiled products follow its indices wherever they point, out of memory as well.
@@ -48,9 +48,9 @@ def read_arrays(
             if name.endswith(_SUFFIX)
         }
         chosen = {name: info for name, info in found.items() if wanted(name)}
-        room, whole = free_memory(), sum(info.file_size for info in chosen.values())
-        if whole > room:
-            raise Damaged(f"its arrays take {in_bytes(whole)}, and {in_bytes(room)} are free")
+        memory, whole = free_memory(), sum(info.file_size for info in chosen.values())
+        if whole > memory:
+            raise Damaged(f"its arrays take {in_bytes(whole)}, and {in_bytes(memory)} are free")
         for name, info in chosen.items():
             with members.open(info) as stream:
                 _check_head(name, stream, info.file_size)

@@ -112,8 +112,8 @@ class Binder:
         names = self.named.get(cls)
         if names and isinstance(value, str):
             if value not in names:
-                told = told_elsewhere(value, getattr(cls, "elsewhere", {}))
-                hint = told or did_you_mean(value, names, "known are")
+                known_as = replacement_of(value, getattr(cls, "elsewhere", {}))
+                hint = known_as or did_you_mean(value, names, "known are")
                 raise InputError(
                     f"{where} '{value}' is not known; {hint}.", where=where, value=value
                 )
@@ -403,7 +403,7 @@ def check_value(value: Any, meta: Mapping, where: str) -> None:
         return
     choices = meta.get("choices")
     if choices and isinstance(value, str) and value not in choices:
-        hint = told_elsewhere(value, meta.get("elsewhere", {}))
+        hint = replacement_of(value, meta.get("elsewhere", {}))
         hint = hint or did_you_mean(value, choices, "choose from")
         if _grows(choices) and hint.startswith("choose"):
             hint += ", or load the file that registers it (--use FILE)"
@@ -556,7 +556,7 @@ def unknown_key(
     """Error for a key that a table does not have, with the nearest that it has, or with what there
     is ``elsewhere``, by pattern of the key."""
     place = f" in [{where}]" if where else ""
-    hint = told_elsewhere(key, elsewhere) or did_you_mean(key, known, "known keys are")
+    hint = replacement_of(key, elsewhere) or did_you_mean(key, known, "known keys are")
     return InputError(
         f"Unknown key '{key}'{place}; {hint}.",
         where=join(where, key),
@@ -580,8 +580,8 @@ def missing_keys(
 def _in_words(field: dataclasses.Field) -> str:
     """Name of a field, what it is and a unit that it may have."""
     doc, unit = field.metadata.get("doc"), field.metadata.get("unit")
-    told = ", ".join(filter(None, (doc, unit and f"in {unit}")))
-    return f"'{field.name}' ({told})" if told else f"'{field.name}'"
+    about = ", ".join(filter(None, (doc, unit and f"in {unit}")))
+    return f"'{field.name}' ({about})" if about else f"'{field.name}'"
 
 
 def _brackets(where: str, found: str, wanted: str, right: str, wrong: str) -> InputError:
@@ -600,9 +600,9 @@ def wrong_type(value: Any, wanted: str, where: str) -> InputError:
     )
 
 
-def told_elsewhere(name: str, elsewhere: Mapping[str, str]) -> str:
+def replacement_of(name: str, elsewhere: Mapping[str, str]) -> str:
     """What flexcage has in the place of a name; empty if no pattern matches it."""
-    found = (told for pattern, told in elsewhere.items() if re.fullmatch(pattern, name, re.I))
+    found = (text for pattern, text in elsewhere.items() if re.fullmatch(pattern, name, re.I))
     return next(found, "")
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from flexcage.core.spec import GIVEN, option
 
-#: Systems of units of a body's files; ``modes.door.systems`` says what they are in SI.
+#: Systems of units of a body's files; ``modes.exchange.systems`` says what they are in SI.
 SYSTEM_NAMES = ("m-kg-s", "mm-t-s", "mm-kg-ms", "in-lbf-s")
 
 

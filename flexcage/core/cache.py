@@ -26,7 +26,7 @@ logger = logging.getLogger(__name__)
 
 _LIMIT = "FLEXCAGE_CACHE_LIMIT_GB"
 _DEFAULT_LIMIT_GB, _MOST_GB = 4.0, 1e9
-_ROOM = 1_000_000  # bytes that a folder must have room for, or it counts as full
+_PROBE_BYTES = 1_000_000  # bytes that a folder must have room for, or it counts as full
 
 Arrays = dict[str, np.ndarray]
 
@@ -45,18 +45,18 @@ def check_writable(folder: Path) -> None:
     """Raise OSError if a folder cannot be made, or has no room for a file of some size."""
     make_private(folder)
     with tempfile.TemporaryFile(dir=folder) as file:
-        file.write(b"0" * _ROOM)
+        file.write(b"0" * _PROBE_BYTES)
 
 
-_told: set[Path | str] = set()  # folders and variables of which something was said
+_reported: set[Path | str] = set()  # folders and variables of which something was said
 
 
-def tell_unwritable(path: Path, error: OSError) -> None:
+def warn_unwritable(path: Path, error: OSError) -> None:
     """Say once that the cache folder in which ``path`` lies cannot be written."""
     folder = cache_root() if path.is_relative_to(cache_root()) else path
-    if folder in _told:
+    if folder in _reported:
         return
-    _told.add(folder)
+    _reported.add(folder)
     logger.warning(
         "the cache folder '%s' cannot be written (%s): kernels and modes are made anew in every "
         "run; make room there, or set FLEXCAGE_CACHE_DIR to a folder that can be written",
@@ -67,8 +67,8 @@ def tell_unwritable(path: Path, error: OSError) -> None:
 def trusted(folder: Path) -> bool:
     """Whether nobody else may have written to a folder of the cache; says once if one may have."""
     reason = distrusted(folder)
-    if reason and folder not in _told:
-        _told.add(folder)
+    if reason and folder not in _reported:
+        _reported.add(folder)
         logger.warning(
             "the cache folder '%s' is not used: %s, and what others put there could run as yours; "
             "set FLEXCAGE_CACHE_DIR to a folder of your own", folder, reason,
@@ -86,8 +86,8 @@ def cache_limit() -> int:
         size = -1.0
     if not 0.0 <= size < _MOST_GB:
         size = _DEFAULT_LIMIT_GB
-        if _LIMIT not in _told:
-            _told.add(_LIMIT)
+        if _LIMIT not in _reported:
+            _reported.add(_LIMIT)
             logger.warning(
                 "%s is '%s', but should be a number of GB that is not negative, as 10; %g GB are "
                 "taken", _LIMIT, text, size,
@@ -153,7 +153,7 @@ def _lock(path: Path) -> Iterator[None]:
         lock = filelock.FileLock(str(path) + ".lock")
         lock.acquire()
     except OSError as exc:
-        tell_unwritable(path.parent, exc)
+        warn_unwritable(path.parent, exc)
         yield
         return
     try:
@@ -172,7 +172,7 @@ def _write(path: Path, arrays: Arrays) -> None:
             os.fsync(file.fileno())
         os.replace(temporary, path)
     except OSError as exc:
-        tell_unwritable(path.parent, exc)
+        warn_unwritable(path.parent, exc)
         if temporary:
             Path(temporary).unlink(missing_ok=True)
 

@@ -33,7 +33,7 @@ WINDOW_VARIABLE = "VTK_DEFAULT_OPENGL_WINDOW"
 WINDOWS = ("default", "vtkEGLRenderWindow", "vtkOSOpenGLRenderWindow")
 _PROBE_SECONDS = 60
 _MINIMUM_MEMORY = 4e9
-_CACHE_ROOM = 400e6  # bytes: kernels of both kinds of bearings (measured: 165 MB), some cages
+_CACHE_SPACE = 400e6  # bytes: kernels of both kinds of bearings (measured: 165 MB), some cages
 
 # Draws one triangle and looks at the picture: a window that opens and draws nothing is no use.
 _RENDER_PROBE = """
@@ -177,17 +177,17 @@ def _cache_folder() -> Checked:
         check_writable(folder)
     except OSError as exc:
         reason = f"{folder} cannot be written: {(exc.strerror or str(exc)).lower()}"
-        remedy = f"set FLEXCAGE_CACHE_DIR to a folder that can be written{_room_for(exc)}"
+        remedy = f"set FLEXCAGE_CACHE_DIR to a folder that can be written{_free_space_hint(exc)}"
         return Checked("cache folder", False, reason, remedy, needed=False)
     free = shutil.disk_usage(folder).free
-    if free < _CACHE_ROOM:
+    if free < _CACHE_SPACE:
         detail = f"{folder} has {free / 1e6:.0f} MB left; kernels and modes want more"
-        remedy = f"make room there for {_CACHE_ROOM / 1e6:.0f} MB, or set FLEXCAGE_CACHE_DIR"
+        remedy = f"make room there for {_CACHE_SPACE / 1e6:.0f} MB, or set FLEXCAGE_CACHE_DIR"
         return Checked("cache folder", False, detail, remedy, needed=False)
     return Checked("cache folder", True, str(folder), needed=False)
 
 
-def _room_for(error: OSError) -> str:
+def _free_space_hint(error: OSError) -> str:
     return ", or make room there" if is_full(error) else ""
 
 

@@ -42,12 +42,12 @@ warnings.simplefilter("ignore", numba.errors.NumbaExperimentalFeatureWarning)
 OPTIONS: dict[str, Any] = {"cache": True, "error_model": "numpy", "fastmath": False}
 # without numba's reference counts a kernel cannot allocate, and a call that hands over a hundred
 # arrays costs 10 ns instead of 150 (measured); whoever calls owns the arrays
-LEAN = {**OPTIONS, "_nrt": False}
+WITHOUT_NRT = {**OPTIONS, "_nrt": False}
 VECTORISED = {"reassoc", "nsz", "contract"}  # fastmath: long sums may be added in any order
 # parts are inlined into their callers: handing large groups of arrays from one compiled function
 # to another costs more than the mathematics between; wrappers for Python double the compile time
 PART = {
-    **LEAN,
+    **WITHOUT_NRT,
     "cache": False,
     "forceinline": True,
     "no_cpython_wrapper": True,
@@ -61,9 +61,9 @@ def kernel(*args: Any, **kwargs: Any) -> Any:
     The plain function is ``.py_func``.
     """
     if args and callable(args[0]):
-        return _jitted(args[0], None, LEAN)
+        return _jitted(args[0], None, WITHOUT_NRT)
     signature = args[0] if args else None
-    return lambda function: _jitted(function, signature, {**LEAN, **kwargs})
+    return lambda function: _jitted(function, signature, {**WITHOUT_NRT, **kwargs})
 
 
 def _jitted(function: Any, signature: Any, options: dict[str, Any]) -> Any:
@@ -111,9 +111,9 @@ def why_not_compiled(error: Exception) -> str:
     and where that is in the user's file."""
     text = str(error)
     lines = [line.strip() for line in text.splitlines() if line.strip()]
-    told = (line for line in lines if not line.startswith(_NO_REASON))
+    said = (line for line in lines if not line.startswith(_NO_REASON))
     reason = next((why for mark, why in _WHY.items() if mark in text), None)
-    reason = reason or next(told, type(error).__name__).rstrip(".:")
+    reason = reason or next(said, type(error).__name__).rstrip(".:")
     places = re.findall(r'File "([^"]+)", line (\d+):', text)
     own = [(file, line) for file, line in places if "site-packages" not in file]
     return f"{reason} (line {own[0][1]} of {own[0][0]})" if own else reason
@@ -138,7 +138,7 @@ def allocating_kernel(function: Any) -> Any:
 _compiled: dict[tuple[Any, ...], Any] = {}
 
 
-def compiled(function: Any, signature: Any, options: dict[str, Any] = LEAN) -> Any:
+def compiled(function: Any, signature: Any, options: dict[str, Any] = WITHOUT_NRT) -> Any:
     """``function`` compiled for one signature, once in a process: compiled code is never freed."""
     key = function, signature, tuple(options.items())
     if key not in _compiled:

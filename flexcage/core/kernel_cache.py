@@ -43,8 +43,8 @@ class KernelCache(NullCache):
         self._kernel, self._folder = kernel, folder
         function = kernel.py_func
         self._name = class_name(function)
-        room, _, module = (function.__module__ or "nowhere").rpartition(".")
-        self._sub = room or module
+        package, _, module = (function.__module__ or "nowhere").rpartition(".")
+        self._sub = package or module
         self._stem = f"{module}.{function.__qualname__}".replace("<", "").replace(">", "")
         file = Path(function.__code__.co_filename).resolve()
         self._users_own = not file.is_relative_to(_PACKAGE)
@@ -90,7 +90,7 @@ class KernelCache(NullCache):
                 continue  # none, or no cache at all: what writes to it says so
             except Exception as error:  # a damaged file may hold anything
                 kernel_files.remove(path)
-                self._folder.tell_damage(self._stem, error)
+                self._folder.warn_damage(self._stem, error)
                 continue
             kernel_files.mark_as_used(path)
             self._note(sig)

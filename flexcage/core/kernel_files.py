@@ -16,7 +16,7 @@ import time
 import zlib
 from pathlib import Path
 
-from flexcage.core.cache import cache_root, check_writable, tell_unwritable, trusted
+from flexcage.core.cache import cache_root, check_writable, trusted, warn_unwritable
 from flexcage.core.trust import distrusted_file, make_private
 
 log = logging.getLogger(__name__)
@@ -49,7 +49,7 @@ class KernelFolder:
         self.path = path
         self._spare: Path | None = None
         self._given_up = False
-        self._told_damage = False
+        self._damage_reported = False
         self._trusted: bool | None = None
 
     @property
@@ -82,7 +82,7 @@ class KernelFolder:
         if self._spare is not None or self._given_up:
             self._given_up = True
             return False
-        tell_unwritable(self.path, error)
+        warn_unwritable(self.path, error)
         return self._take_spare()
 
     def _take_spare(self) -> bool:
@@ -95,15 +95,15 @@ class KernelFolder:
         _spares.append(self._spare)
         return True
 
-    def tell_damage(self, name: str, error: Exception) -> None:
+    def warn_damage(self, name: str, error: Exception) -> None:
         """Say once that kernels could not be read."""
         reason = str(error) or type(error).__name__
-        level = logging.DEBUG if self._told_damage else logging.WARNING
+        level = logging.DEBUG if self._damage_reported else logging.WARNING
         log.log(
             level, "the compiled kernel '%s' in %s cannot be read (%s); it is removed and compiled "
             "anew, as is any other that is damaged", name, self.path, reason,
         )  # fmt: skip
-        self._told_damage = True
+        self._damage_reported = True
 
 
 def write_whole(path: Path, content: bytes) -> None:

@@ -28,8 +28,8 @@ def wrapped(text: str, *, first: str = "", rest: str | None = None, width: int =
     """A text in lines of at most ``width`` characters (0: the terminal's); ``first`` stands before
     the first line and ``rest`` before the others (by default as many blanks)."""
     rest = " " * len(first) if rest is None else rest
-    room = (width or line_width()) - max(len(first), len(rest))
-    first_line, *others = _lines(text, max(room, 1))
+    space = (width or line_width()) - max(len(first), len(rest))
+    first_line, *others = _lines(text, max(space, 1))
     return "\n".join([f"{first}{first_line}", *(f"{rest}{line}" for line in others)])
 
 
@@ -120,14 +120,14 @@ class _Table:
 
     def _widths(self, least: Sequence[int]) -> list[int]:
         """Widths of the columns, the widest ones shrunk until all fit; none if they do not."""
-        room = self.width - self.indent - _GAP * (len(self.sides) - 1)
+        space = self.width - self.indent - _GAP * (len(self.sides) - 1)
         natural = self._natural(wrap_heads=False)
-        if sum(natural) <= room:
+        if sum(natural) <= space:
             return natural
         natural = self._natural(wrap_heads=self.heads)
         for cap in range(max(natural, default=0), 0, -1):
             widths = [min(n, max(low, cap)) for n, low in zip(natural, least)]
-            if sum(widths) <= room:
+            if sum(widths) <= space:
                 return widths
         return []
 
@@ -162,11 +162,11 @@ class _Table:
 
     def _in_parts(self, least: Sequence[int]) -> list[str]:
         """Several tables, each with the first column and as many others as have room."""
-        room, parts = self.width - self.indent - least[0], [[0]]
+        space, parts = self.width - self.indent - least[0], [[0]]
         used = 0
         for k in range(1, len(self.sides)):
             used += _GAP + least[k]
-            if used > room and len(parts[-1]) > 1:
+            if used > space and len(parts[-1]) > 1:
                 parts.append([0])
                 used = _GAP + least[k]
             parts[-1].append(k)
@@ -177,7 +177,7 @@ class _Table:
             sides = "".join(self.sides[k] for k in columns)
             table = replace(self, lines=kept, sides=sides)
             widths = table._widths([least[k] for k in columns])
-            forced = [least[0], max(room - _GAP, 1)][: len(columns)]
+            forced = [least[0], max(space - _GAP, 1)][: len(columns)]
             found += [*([""] if found else []), *table._laid(widths or forced)]
         return found
 
@@ -200,9 +200,9 @@ def _filled(text: str, first: int, others: int) -> list[str]:
     found: list[str] = []
     line = ""
     for word in text.split():
-        beside = f"{line} {word}" if line else word
-        if len(beside) <= (others if found else first):
-            line = beside
+        longer = f"{line} {word}" if line else word
+        if len(longer) <= (others if found else first):
+            line = longer
             continue
         found += [line] if line else []
         *full, line = _pieces(word, others)

@@ -48,10 +48,10 @@ def _lacking(folder: Path) -> Path | None:
 def _nearest(path: Path, endings: tuple[str, ...], *, folders: bool = False) -> Path | None:
     """What is beside a path and has a name like its; the same name with another ending first."""
     try:
-        beside = [p for p in path.parent.iterdir() if p.is_dir() == folders]
+        siblings = [p for p in path.parent.iterdir() if p.is_dir() == folders]
     except OSError:
         return None
-    names = sorted(p.name for p in beside if folders or not endings or p.suffix in endings)
+    names = sorted(p.name for p in siblings if folders or not endings or p.suffix in endings)
     same = [name for name in names if Path(name).stem.casefold() == path.stem.casefold()]
     close = near_names(path.name, same, 1, cutoff=0.0) or near_names(path.name, names, 1)
     return path.parent / close[0] if close else None

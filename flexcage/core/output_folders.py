@@ -91,10 +91,10 @@ def _found(path: Path, wanted: str) -> Iterator[str]:
 def _runs_in(path: Path) -> str:
     """The folders of runs and studies in a folder, in quotes; empty if there are none."""
     try:
-        beside = sorted(path.iterdir())
+        entries = sorted(path.iterdir())
     except OSError:
         return ""
-    names = [p.name for p in beside if any((p / f).exists() for f in (RESULTS, "study.toml"))]
+    names = [p.name for p in entries if any((p / f).exists() for f in (RESULTS, "study.toml"))]
     named = ", ".join(f"'{path / name}'" for name in names[:_NAMED])
     more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
     return named + more

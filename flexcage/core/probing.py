@@ -10,8 +10,8 @@ import numpy as np
 
 from flexcage.core.errors import InputError
 
-_ROOM = 1024  # parameters of a trial, most of them not given
-_ODD = (np.nan, 1e3, -1e3)  # values that no function overlooks all
+_TRIAL_SIZE = 1024  # parameters of a trial, most of them not given
+_TRIAL_VALUES = (np.nan, 1e3, -1e3)  # values that no function overlooks all
 _STEP = 1e-5  # of the argument's size, over which a difference is taken
 _OFF = 0.01  # share by which a slope may be off
 _FLOOR = 1e-3  # of value over argument: a slope that counts
@@ -20,9 +20,9 @@ _ROUNDING = 1e-13  # of a value
 Evaluate = Callable[[np.ndarray], Iterable[np.ndarray]]
 
 
-def with_room(given: np.ndarray) -> np.ndarray:
+def zero_padded(given: np.ndarray) -> np.ndarray:
     """The parameters given, with zeros after them: what reads further stays in the array."""
-    return np.concatenate([given, np.zeros(_ROOM - len(given))])
+    return np.concatenate([given, np.zeros(_TRIAL_SIZE - len(given))])
 
 
 def check_reading(what: str, evaluate: Evaluate, given: np.ndarray, *, where: str) -> None:
@@ -49,19 +49,19 @@ def place_beyond(evaluate: Evaluate, given: np.ndarray) -> int | None:
     others.
     """
     count = len(given)
-    wanted = _values(evaluate, with_room(given))
+    wanted = _values(evaluate, zero_padded(given))
     if not _differs(evaluate, given, wanted, slice(count, None)):
         return None
-    for place in range(count, _ROOM):
+    for place in range(count, _TRIAL_SIZE):
         if _differs(evaluate, given, wanted, slice(place, place + 1)):
-            return place if place < _ROOM // 2 else place - _ROOM
+            return place if place < _TRIAL_SIZE // 2 else place - _TRIAL_SIZE
     return count
 
 
 def _differs(evaluate: Evaluate, given: np.ndarray, wanted: np.ndarray, where: slice) -> bool:
-    for odd in _ODD:
-        p = with_room(given)
-        p[where] = odd
+    for trial in _TRIAL_VALUES:
+        p = zero_padded(given)
+        p[where] = trial
         if not np.array_equal(_values(evaluate, p), wanted, equal_nan=True):
             return True
     return False

@@ -17,7 +17,7 @@ KINDS = "biufcUS"  # of numpy's types: numbers and texts
 LONGEST_JSON = 2**28  # bytes
 MOST_MEMBERS = 100_000
 PACKED = 1000  # times that what a file holds may be larger than the file itself, and besides
-BESIDE = 2**28  # bytes: short files of zeros are packed tighter
+ALLOWANCE = 2**28  # bytes: short files of zeros are packed tighter
 
 
 def json_of(text: str | bytes) -> Any:
@@ -50,7 +50,7 @@ def table_of(value: Any, **kinds: type | tuple[type, ...]) -> dict[str, Any]:
 
 def check_size(size: int, stored: int) -> None:
     """ValueError if ``stored`` bytes say that they hold ``size``: over so many times as much."""
-    if not 0 <= size <= BESIDE + PACKED * stored:
+    if not 0 <= size <= ALLOWANCE + PACKED * stored:
         raise ValueError(f"it claims to hold {size:,} bytes in {stored:,}")
 
 

@@ -26,12 +26,12 @@ def kernel_sources() -> list[Path]:
     return sorted(
         p
         for p in _PACKAGE.rglob("*.py")
-        if (_room(p) in _FEEDING and p.name not in ("options.py", "spec.py"))
+        if (_package_of(p) in _FEEDING and p.name not in ("options.py", "spec.py"))
         or any(mark in p.read_text("utf-8") for mark in ("core.jit import", "from numba"))
     )
 
 
-def _room(path: Path) -> str:
+def _package_of(path: Path) -> str:
     return path.relative_to(_PACKAGE).parts[0]
 
 
@@ -48,5 +48,5 @@ def source_hash(files: Iterable[Path]) -> str:
 def physics() -> str:
     """16 digits that name the physics of this flexcage: kernels, and all of the rooms that make a
     run's numbers. Two releases, or an edited one, have others."""
-    rooms = (p for p in _PACKAGE.rglob("*.py") if _room(p) in _PHYSICS)
+    rooms = (p for p in _PACKAGE.rglob("*.py") if _package_of(p) in _PHYSICS)
     return source_hash(sorted({*kernel_sources(), *rooms}))

@@ -49,7 +49,7 @@ def read_toml(text: str, name: str, *, where: str = "") -> dict[str, Any]:
         raise _too_deep(name, where) from exc
     level: list[Any] = [table]
     for _ in range(_DEEPEST):
-        level = [inner for outer in level for inner in _inside(outer)]
+        level = [inner for outer in level for inner in _nested(outer)]
     if level:
         raise _too_deep(name, where)
     return table
@@ -81,7 +81,7 @@ def _lines(text: str) -> list[str]:
     return text.replace("\r\n", "\n").split("\n")
 
 
-def _inside(value: Any) -> list[Any]:
+def _nested(value: Any) -> list[Any]:
     """Tables and lists directly inside a table or list."""
     items = value.values() if isinstance(value, dict) else value
     return [item for item in items if isinstance(item, (dict, list))]

@@ -132,7 +132,8 @@ _SPELLINGS: tuple[tuple[re.Pattern, Any], ...] = (
 )
 _TON = re.compile(r"\b[kM]?tons?\b")  # 907 kg for pint, and 1000 kg for most engineers
 _STEP = re.compile(r"delta_|Δ")
-_ODD = re.compile(r"\d{3}|\d\s*\^|%\s*\w|\w\s*%")  # powers that take pint for ever, parts of a unit
+# powers that take pint for ever, parts of a unit
+_SLOW_OR_PARTIAL = re.compile(r"\d{3}|\d\s*\^|%\s*\w|\w\s*%")
 _ANGLE = "[plane_angle]"
 # pint's angles have no dimension, so that 100 Hz would pass for 100 rad/s and N*m for N*m/rad
 _DEFINITIONS = (
@@ -287,7 +288,7 @@ def _parse_by_pint(number: float, given: str, unit: str, where: str, value: obje
 def _quantity(number: float, given: str) -> Any:
     """pint's quantity of a unit in any of its usual spellings."""
     given = _spelled(given)
-    if len(given) > _LONGEST or _ODD.search(given):
+    if len(given) > _LONGEST or _SLOW_OR_PARTIAL.search(given):
         raise ValueError(given)
     return _registry().Quantity(number, given)
 

@@ -8,7 +8,7 @@ Struct. 32 (1989) 157). The rest of the slip stays: a state remembers it, so tha
 in their order. Newton's method, with the tangent's unsymmetric part.
 
 Nothing but the motions of surfaces against each other matters to the contact: all else is
-eliminated once (``fem.parting``), for all gaps and loads.
+eliminated once (``fem.separation``), for all gaps and loads.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from flexcage.core.errors import RunFailed
 from flexcage.fem.condensed import dofs_of
 from flexcage.fem.curved import FacePoints, face_points
 from flexcage.fem.linear import SINGULAR
-from flexcage.fem.parting import Parted
+from flexcage.fem.separation import SeparationModel
 
 log = logging.getLogger(__name__)
 
@@ -52,11 +52,11 @@ class Touching:
 
 @dataclass(frozen=True, eq=False)
 class ContactState:
-    """Partings of surfaces (m,) and displacements (n, 3) [m], and at the points of contact (q,) the
+    """Separations of surfaces (m,), displacements (n, 3) [m], and at the points of contact (q,) the
     pressure [Pa], the friction (q, 2) [Pa] against the second body's slip, and the slip (q, 2) [m]
     that stays."""
 
-    parted: np.ndarray
+    separation: np.ndarray
     moved: np.ndarray
     pressure: np.ndarray
     friction: np.ndarray
@@ -76,11 +76,13 @@ class _Response:
 
 
 class ContactProblem:
-    """Surfaces that touch, of bodies that are ``parted`` (``fem.parting``)."""
+    """Surfaces that touch, of bodies that are ``separation`` (``fem.separation``)."""
 
-    def __init__(self, parted: Parted, pairs: Sequence[Touching], *, penalty: float) -> None:
-        self.parted, self.pairs, self.penalty = parted, tuple(pairs), penalty
-        nodes = parted.nodes
+    def __init__(
+        self, separation: SeparationModel, pairs: Sequence[Touching], *, penalty: float
+    ) -> None:
+        self.separation, self.pairs, self.penalty = separation, tuple(pairs), penalty
+        nodes = separation.nodes
         points = [face_points(nodes, pair.faces) for pair in pairs]
         counts = [len(p.weights) for p in points]
         ends = np.cumsum([0, *counts])
@@ -93,14 +95,14 @@ class ContactProblem:
         relative = sp.vstack([
             face_points(nodes, pair.others).shapes - p.shapes for p, pair in zip(points, pairs)
         ]).tocsr()  # fmt: skip
-        self.B_n = parted.of_partings(_along(relative, self.normals))
-        self.B_t = [parted.of_partings(_along(relative, self.axes[:, k])) for k in (0, 1)]
+        self.B_n = separation.of_separations(_along(relative, self.normals))
+        self.B_t = [separation.of_separations(_along(relative, self.axes[:, k])) for k in (0, 1)]
 
     def at_rest(self) -> ContactState:
         """Nothing moved, nothing slipped."""
         q = len(self.weights)
         return ContactState(
-            np.zeros(self.B_n.shape[1]), np.zeros_like(self.parted.nodes), np.zeros(q),
+            np.zeros(self.B_n.shape[1]), np.zeros_like(self.separation.nodes), np.zeros(q),
             np.zeros((q, 2)), np.zeros((q, 2)),
         )  # fmt: skip
 
@@ -112,7 +114,7 @@ class ContactProblem:
         return out
 
     def respond(self, u: np.ndarray, gaps: np.ndarray, before: ContactState) -> _Response:
-        """Tractions at partings u (m,), with the slip of the state before."""
+        """Tractions at separations u (m,), with the slip of the state before."""
         overlap = -(gaps + self.B_n @ u)
         closed = overlap >= 0.0  # at rest without a gap they touch
         pressure = self.penalty * np.where(closed, overlap, 0.0)
@@ -135,8 +137,8 @@ class ContactProblem:
     ) -> ContactState:
         """Equilibrium under nodal loads (n, 3) [N], from the state before; forces balance to within
         ``tolerance`` of the largest."""
-        f, moving = self.parted.condensed(loads)
-        u = before.parted.copy()
+        f, moving = self.separation.condensed(loads)
+        u = before.separation.copy()
         found, residual = self._residual(u, f, gaps, before)
         size = scale = 1.0
         for step in range(_MOST):
@@ -157,8 +159,8 @@ class ContactProblem:
                 f"The contact of the joint found no balance in {_MOST} steps (forces are off by "
                 f"{size / scale:.1g} of the largest); apply the loads in more steps."
             )
-        moved = self.parted.expanded(u, moving)
-        held = self.parted.springs * float(np.abs(moved).sum())
+        moved = self.separation.expanded(u, moving)
+        held = self.separation.springs * float(np.abs(moved).sum())
         if held > _UNHELD * float(np.abs(loads).sum() + self.weights @ found.pressure):
             raise RunFailed(
                 "Nothing but friction beyond its bound holds a body of the joint against its loads "
@@ -170,7 +172,7 @@ class ContactProblem:
         self, u: np.ndarray, f: np.ndarray, gaps: np.ndarray, before: ContactState
     ) -> tuple[_Response, np.ndarray]:
         found = self.respond(u, gaps, before)
-        residual = self.parted.stiffness @ u - f - self.B_n.T @ (self.weights * found.pressure)
+        residual = self.separation.stiffness @ u - f - self.B_n.T @ (self.weights * found.pressure)
         for B, t in zip(self.B_t, found.friction.T):
             residual += B.T @ (self.weights * t)
         return found, residual
@@ -192,7 +194,7 @@ class ContactProblem:
         if slides:  # friction follows the pressure, which falls with the gap
             for B, way in zip(self.B_t, found.onward.T):
                 more = more - B.T @ sp.diags(way * push) @ self.B_n
-        matrix = np.array(self.parted.stiffness, order="F")
+        matrix = np.array(self.separation.stiffness, order="F")
         entry = more.tocoo()
         matrix[entry.row, entry.col] += entry.data
         try:

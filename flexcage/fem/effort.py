@@ -38,16 +38,16 @@ _FACTORS, _SOLUTION, _LOAD = 0.4, 0.012, 0.0004
 def check_memory(model: FEModel, vectors: int) -> None:
     """Refuse a basis of so many vectors that takes more memory than this machine has; warn of one
     that takes more than is free."""
-    need, room = modes_bytes(model, vectors), total_memory()
+    need, memory = modes_bytes(model, vectors), total_memory()
     repeats = "" if model.sectors is not None else ", which do not repeat from pocket to pocket,"
     text = f"The modes of a cage's mesh of {len(model.nodes):,} nodes{repeats} take about "
     text += f"{in_bytes(need)} of memory"
     size = model.info.get("size")
     larger = f" than {describe(size, 'mm')}" if isinstance(size, float) else ""
     remedy = f"give a larger mesh.size{larger}, mesh.order = 1, or cage.model = 'rigid'"
-    if need > room:
+    if need > memory:
         raise InputError(
-            f"{text}, and this machine has {in_bytes(room)}; {remedy}.",
+            f"{text}, and this machine has {in_bytes(memory)}; {remedy}.",
             where="mesh",
             value=len(model.nodes),
         )
@@ -62,7 +62,7 @@ def modes_bytes(model: FEModel, vectors: int) -> float:
 
 
 @contextmanager
-def told_modes(solver: FreeBodySolver) -> Iterator[None]:
+def modes_progress(solver: FreeBodySolver) -> Iterator[None]:
     """Say how long the modal basis of a mesh from a file takes, and how far it is."""
     done = _FACTORS
 
@@ -80,7 +80,7 @@ def told_modes(solver: FreeBodySolver) -> Iterator[None]:
 
 
 @contextmanager
-def told_stress(model: FEModel, what: str, loads: int) -> Iterator[Callable[[int], None]]:
+def stress_progress(model: FEModel, what: str, loads: int) -> Iterator[Callable[[int], None]]:
     """Say how long the stress fields of so many unit loads take; gives what is to be called with
     the number of loads done in addition."""
     done = 0

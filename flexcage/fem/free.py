@@ -9,11 +9,11 @@ import numpy as np
 import scipy.sparse as sp
 
 from flexcage.core.errors import InputError
+from flexcage.fem.blocked_products import inner_products, subtract_product
 from flexcage.fem.condensed import CondensedRing, find_parts
 from flexcage.fem.dissected import DissectedBody
 from flexcage.fem.linear import linear_solver
 from flexcage.fem.model import FEModel
-from flexcage.fem.tall import inner_products, subtract_product
 
 
 class FreeBodySolver:
@@ -105,10 +105,12 @@ def _supports(points: np.ndarray, axes: np.ndarray | None = None) -> np.ndarray:
     if np.linalg.norm(normal[third]) < 1e-9 * np.linalg.norm(points[second] - points[first]):
         raise InputError("all mesh points lie on one line", where="mesh", value=len(points))
     axes = np.broadcast_to(np.eye(3), (len(points), 3, 3)) if axes is None else axes
-    return _hold(points, axes, (first, second, third))
+    return _isostatic_dofs(points, axes, (first, second, third))
 
 
-def _hold(points: np.ndarray, axes: np.ndarray, chosen: tuple[int, int, int]) -> np.ndarray:
+def _isostatic_dofs(
+    points: np.ndarray, axes: np.ndarray, chosen: tuple[int, int, int]
+) -> np.ndarray:
     """All of the first vertex and three best-conditioned dofs of the other two."""
     first, second, third = chosen
     candidates = [3 * node + comp for node in (second, third) for comp in range(3)]

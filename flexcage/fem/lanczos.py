@@ -10,7 +10,7 @@ import numpy as np
 from scipy.linalg import eigh
 
 from flexcage.core.errors import RunFailed
-from flexcage.fem.tall import inner_products, subtract_product
+from flexcage.fem.blocked_products import inner_products, subtract_product
 
 log = logging.getLogger(__name__)
 

@@ -14,8 +14,8 @@ import scipy.sparse as sp
 from flexcage.core.errors import InputError
 from flexcage.fem import elements
 from flexcage.fem.assembly import ElementKind, Matrices, assemble_ring, assemble_whole
+from flexcage.fem.blocked_products import inner_products, subtract_product
 from flexcage.fem.sectors import Sectors, edge_keys, find_sectors
-from flexcage.fem.tall import inner_products, subtract_product
 from flexcage.geometry.materials import Material
 from flexcage.mesh.cage_mesh import signed_volumes
 

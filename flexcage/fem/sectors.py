@@ -88,10 +88,10 @@ def find_sectors(
     """
     doubled = np.asarray(info.get("doubled", ()), np.int64)
     n = n_points - len(doubled)
-    told = _told(info, n)
-    if told is None:
+    sector_map = _sector_map(info, n)
+    if sector_map is None:
         return None
-    following, cells = told
+    following, cells = sector_map
     place = np.append(np.arange(n), doubled)  # of vertices
     if len(cells) < 3 or cells.size != len(tets) or not _repeats(place[tets], following, cells):
         return None
@@ -105,7 +105,7 @@ def find_sectors(
     )
 
 
-def _told(info: Mapping[str, object], n: int) -> tuple[np.ndarray, np.ndarray] | None:
+def _sector_map(info: Mapping[str, object], n: int) -> tuple[np.ndarray, np.ndarray] | None:
     """Which of n vertices follows each (n,), and the cells of all sectors (count, .)."""
     following, cells = info.get("following"), info.get("sector_tets")
     if isinstance(following, np.ndarray) and isinstance(cells, np.ndarray):

@@ -61,7 +61,7 @@ class Submodel:
         return len(self.kept) + row_of(self.edges, np.sort(pairs, axis=1))
 
     @cached_property
-    def _inside(self) -> tuple[np.ndarray, sp.csr_matrix, Elimination]:
+    def _interior(self) -> tuple[np.ndarray, sp.csr_matrix, Elimination]:
         """Dofs off the cut in order of elimination, what couples them with the cut, factors."""
         free, model = np.setdiff1d(np.arange(len(self.model.nodes)), self.cut), self.model
         blocks = dissect(model.points[model.tets].mean(axis=1), model.cells, free)
@@ -77,11 +77,11 @@ class Submodel:
         answer = np.zeros(loads.shape)
         answer[self.cut] = driven.reshape(len(self.cut), *moved.shape[1:])
         flat = answer.reshape(3 * len(answer), -1)
-        inside, coupling, factors = self._inside
-        own = loads.reshape(flat.shape)[inside] - coupling @ flat[dofs_of(self.cut)]
+        interior, coupling, factors = self._interior
+        own = loads.reshape(flat.shape)[interior] - coupling @ flat[dofs_of(self.cut)]
         factors.condense(own)
         factors.expand(own)
-        flat[inside] = own
+        flat[interior] = own
         return answer
 
 
@@ -198,8 +198,8 @@ def _bulge(
     ends = [np.array([normals[v] for v in e]).reshape(-1, 3) for e in edges[on].T.tolist()]
     upwards = sum(ends)
     upwards /= np.linalg.norm(upwards, axis=1)[:, None]
-    leans = [np.einsum("ij,ij->i", along, normal) / length for normal in ends]
-    first, second = (lean / (1.0 + np.sqrt(1.0 - lean**2)) for lean in leans)
+    slopes = [np.einsum("ij,ij->i", along, normal) / length for normal in ends]
+    first, second = (slope / (1.0 + np.sqrt(1.0 - slope**2)) for slope in slopes)
     out[on] = (0.25 * length * (second - first))[:, None] * upwards
     return out
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 import numpy as np
 
-from flexcage.core.binding import check_value, told_elsewhere
+from flexcage.core.binding import check_value, replacement_of
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option
 from flexcage.core.units import typeset
@@ -81,7 +81,7 @@ def check_type(name: Any) -> None:
     """Raise InputError for a type of bearing that there is not."""
     if isinstance(name, str) and name not in BEARING_TYPES:
         declined = named_kind(name) or kind_of(name)
-        if declined and not told_elsewhere(name, OTHER_DESIGNS):
+        if declined and not replacement_of(name, OTHER_DESIGNS):
             raise InputError(
                 f"bearing.type '{name}' is not known: {declined.removeprefix('is ')}; choose from "
                 f"{', '.join(BEARING_TYPES)}.",

@@ -181,6 +181,6 @@ class Cage:
             raise InputError(f"{where}, {describe(value, 'mm')}, {what}.", where=where, value=value)
         material_at(self.material, self.temperature)
 
-    def no_room(self, bearing: HeldElements) -> Iterator[Objection]:
+    def obstructions(self, bearing: HeldElements) -> Iterator[Objection]:
         """What leaves no room in it for a bearing's elements, or for itself between them."""
         return iter(())

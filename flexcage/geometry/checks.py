@@ -40,13 +40,13 @@ def raise_first(findings: Iterator[Finding]) -> None:
         raise InputError(sentence, where=where)
 
 
-def check_room(bearing: Bearing, cage: Cage, around: Iterator[Finding]) -> None:
+def check_fit(bearing: Bearing, cage: Cage, around: Iterator[Finding]) -> None:
     """Raise InputError for the first impossibility in a cage between elements and rings;
     ``around``: what leaves it no place."""
     raise_first(around)
     raise_first(
         (f"cage.{name}", f"cage.{name} is {describe(getattr(cage, name), 'mm')}, {what}.")
-        for name, what in cage.no_room(bearing)
+        for name, what in cage.obstructions(bearing)
     )
     raise_first(_find_in_unbalance(cage))
 

@@ -40,10 +40,10 @@ class JointShape:
                 where="root_radius",
                 value=self.root_radius,
             )
-        room = min(-self.inner, self.outer, 0.5 * self.length)
-        if not 0.5 * self.head_diameter < 0.98 * room:
+        available = min(-self.inner, self.outer, 0.5 * self.length)
+        if not 0.5 * self.head_diameter < 0.98 * available:
             raise InputError(
-                f"The strip ends {mm(room)} from the rivet's middle, within its head of "
+                f"The strip ends {mm(available)} from the rivet's middle, within its head of "
                 f"{mm(self.head_diameter)}.",
                 where="rivet",
                 value=self.head_diameter,
@@ -57,5 +57,5 @@ class JointShape:
     @property
     def rim(self) -> float:
         """Radius [m] up to which the mesh is round; beyond, it goes over into the strip."""
-        room = min(-self.inner, self.outer, 0.5 * self.length)
-        return 0.5 * (0.5 * self.head_diameter + room)
+        available = min(-self.inner, self.outer, 0.5 * self.length)
+        return 0.5 * (0.5 * self.head_diameter + available)

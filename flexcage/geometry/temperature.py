@@ -119,10 +119,10 @@ def _curve(
     material: str, celsius: tuple[float, ...], moduli: tuple[float, ...], service: float,
     source: str, *, power: float = 1.0, polymer: bool = True,
 ) -> ModulusCurve:  # fmt: skip
-    room = moduli[celsius.index(23.0)]
+    at_23 = moduli[celsius.index(23.0)]
     return ModulusCurve(
         material=material, temperatures=tuple(round(t + 273.15, 2) for t in celsius),
-        ratios=tuple((m / room) ** power for m in moduli), service=service + 273.15,
+        ratios=tuple((m / at_23) ** power for m in moduli), service=service + 273.15,
         polymer=polymer, source=source,
     )  # fmt: skip
 

@@ -84,17 +84,17 @@ def _supports(bearing: BearingSystem) -> dict[str, Any]:
     azimuth = bearing.rings.modes[1].azimuth if bearing.rings else ()
     if not len(azimuth):
         return {}
-    told = {"units": "rad", "long_name": "azimuth of supports"}
+    attrs = {"units": "rad", "long_name": "azimuth of supports"}
     return {
-        "support": np.arange(len(azimuth)), "support_azimuth": (("support",), azimuth, told)
+        "support": np.arange(len(azimuth)), "support_azimuth": (("support",), azimuth, attrs)
     }  # fmt: skip
 
 
 def _spotted(bearing: BearingSystem, recording: Recording[Any]) -> dict[str, Any]:
     """Numbers of the elements that have a spot."""
     spotted = recording.spots(bearing.data.model)
-    told = {"long_name": "element that has a spot"}
-    return {"spotted": (("spotted",), spotted, told)} if len(spotted) else {}
+    attrs = {"long_name": "element that has a spot"}
+    return {"spotted": (("spotted",), spotted, attrs)} if len(spotted) else {}
 
 
 def recorded_names(bearing: BearingSystem, recording: Recording[Any]) -> list[str]:

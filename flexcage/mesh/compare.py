@@ -132,7 +132,7 @@ class Skin:
         places = np.einsum("kq,nkd->nqd", np.stack([1.0 - u - v, u, v]), self.corners)
         return places.reshape(-1, 3), np.repeat(np.arange(len(self.corners)), len(u))
 
-    def beside(self, places: np.ndarray, units: np.ndarray, length: float) -> np.ndarray:
+    def nearest(self, places: np.ndarray, units: np.ndarray, length: float) -> np.ndarray:
         """The triangle (n,) nearest to each place; normals that differ by one count as much as
         a ``length`` [m]."""
         at, triangle = self.samples
@@ -276,7 +276,7 @@ def _missing(found: Skin, wanted: Skin) -> dict[str, np.ndarray]:
     """Of every group but fillets, which boundary triangles (n,) of the file's mesh lie on its face
     and are not in it."""
     length = float(np.sqrt(np.median(wanted.areas)))
-    at = wanted.beside(found.centres, found.units, length)
+    at = wanted.nearest(found.centres, found.units, length)
     off = np.einsum("ij,ij->i", found.centres - wanted.centres[at], wanted.units[at])
     turned = np.linalg.norm(found.units - wanted.units[at], axis=1)
     fillets = [i for i, name in enumerate(found.names) if name.endswith("fillet")]

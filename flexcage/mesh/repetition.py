@@ -136,8 +136,8 @@ def _from_first_sector(middles: np.ndarray, cells: np.ndarray) -> np.ndarray:
     count = len(cells)
     pitch = 2.0 * np.pi / count
     azimuth = np.arctan2(middles[..., 2], middles[..., 1]) - pitch * np.arange(count)[:, None]
-    apart = (azimuth - azimuth[0] + np.pi) % (2.0 * np.pi) - np.pi
-    first = -np.round((azimuth[0] + np.median(apart, axis=0)) / pitch).astype(int)
+    difference = (azimuth - azimuth[0] + np.pi) % (2.0 * np.pi) - np.pi
+    first = -np.round((azimuth[0] + np.median(difference, axis=0)) / pitch).astype(int)
     rows = (first + np.arange(count)[:, None]) % count
     return np.take_along_axis(cells, rows, axis=0)
 

@@ -133,12 +133,12 @@ def grow_from(gmsh: Any, distance: int, plan: SizePlan) -> None:
 
 def generate(gmsh: Any, plan: SizePlan) -> None:
     """Mesh the solids; InputError before that for more elements than this machine has room for."""
-    count, room = expected_tets(gmsh, plan), total_memory()
-    if _BYTES * count > room:
+    count, memory = expected_tets(gmsh, plan), total_memory()
+    if _BYTES * count > memory:
         raise InputError(
             f"Elements of {describe(plan.size, 'mm')} make about {count:.2g} of them in a part of "
             f"one pocket's sector, which take {in_bytes(_BYTES * count)} of memory, and this "
-            f"machine has {in_bytes(room)}; give a larger mesh.size.",
+            f"machine has {in_bytes(memory)}; give a larger mesh.size.",
             where="mesh.size",
             value=plan.size,
         )

@@ -54,8 +54,10 @@ def land_station_weights(model: FEModel, n_land: int) -> sp.csr_matrix:
 def _azimuth_hats(n_land: int):
     def hats(points: np.ndarray) -> np.ndarray:
         place = np.arctan2(points[:, 2], points[:, 1]) * n_land / (2.0 * np.pi)
-        apart = (place[None] - np.arange(n_land)[:, None] + 0.5 * n_land) % n_land - 0.5 * n_land
-        return np.maximum(1.0 - np.abs(apart), 0.0)
+        difference = (
+            place[None] - np.arange(n_land)[:, None] + 0.5 * n_land
+        ) % n_land - 0.5 * n_land
+        return np.maximum(1.0 - np.abs(difference), 0.0)
 
     return hats
 

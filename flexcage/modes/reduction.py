@@ -13,16 +13,16 @@ from flexcage.core.cache import cached_arrays
 from flexcage.core.hashing import content_hash
 from flexcage.core.registry import source_of
 from flexcage.core.threads import one_blas_thread
-from flexcage.fem.effort import check_memory, told_modes
+from flexcage.fem.effort import check_memory, modes_progress
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import FEModel, assemble
 from flexcage.geometry.cage import Cage
 from flexcage.mesh.cage_mesh import WALL_GROUPS, CageMesh, pocket_groups
 from flexcage.modes.basis import BodyFit, ContactInterface, ModeBasis
-from flexcage.modes.door.body import ReducedBody
-from flexcage.modes.door.cage import BODY, body_of, full_body_of, given_model
-from flexcage.modes.door.cage_checks import WHERE
-from flexcage.modes.door.formats import read_body
+from flexcage.modes.exchange.body import ReducedBody
+from flexcage.modes.exchange.cage import BODY, body_of, full_body_of, imported_model
+from flexcage.modes.exchange.cage_checks import WHERE
+from flexcage.modes.exchange.formats import read_body
 from flexcage.modes.pockets import LOADS
 from flexcage.modes.registry import basis_of_body, basis_version, build_basis, check_files
 from flexcage.modes.spec import ModesSpec
@@ -156,7 +156,7 @@ class CageReduction:
         if self._own:
             return made
         assert self.body is not None
-        return given_model(self.body, made, self.spec)
+        return imported_model(self.body, made, self.spec)
 
     @cached_property
     def solver(self) -> FreeBodySolver:
@@ -166,7 +166,7 @@ class CageReduction:
     @cached_property
     def basis(self) -> ModeBasis:
         """The modal basis with its nodal shapes."""
-        arrays = self._known
+        arrays = self._stored_basis
         if "shapes" not in arrays and "steps" not in arrays:
             arrays = self.arrays("basis", self.key, self._make_basis)
         return basis_from(arrays)
@@ -179,11 +179,11 @@ class CageReduction:
 
     @cached_property
     def _rounded(self) -> Mapping[str, np.ndarray]:
-        if "steps" in self._known:
-            return self._known
+        if "steps" in self._stored_basis:
+            return self._stored_basis
 
         def make() -> dict[str, np.ndarray]:
-            made = self._known
+            made = self._stored_basis
             if "shapes" not in made:
                 made = self.arrays("basis", self.key, self._make_basis, without=_NOT_SHOWN)
             return rounded(made)
@@ -224,7 +224,7 @@ class CageReduction:
     @property
     def version(self) -> str:
         """Names this very basis: what else is kept of it on disk fits no other."""
-        return f"{self.key}-{self._known['digest']}"
+        return f"{self.key}-{self._stored_basis['digest']}"
 
     @one_blas_thread
     def as_body(self) -> ReducedBody:
@@ -260,7 +260,7 @@ class CageReduction:
 
     @cached_property
     @one_blas_thread
-    def _known(self) -> Mapping[str, np.ndarray]:
+    def _stored_basis(self) -> Mapping[str, np.ndarray]:
         """The digest of the basis on disk, or all of a basis just made."""
         return self.arrays("basis", self.key, self._make_basis, only=("digest",))
 
@@ -268,7 +268,7 @@ class CageReduction:
     def _make_basis(self) -> dict[str, np.ndarray]:
         check_memory(self.model, self._vectors)
         count, solver = self.mesh.pocket_count, self.solver
-        with told_modes(solver):
+        with modes_progress(solver):
             if self.body is not None and not self.body.is_full:
                 made = basis_of_body(self.body, solver, pocket_count=count, spec=self.spec)
             else:

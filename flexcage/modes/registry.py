@@ -18,8 +18,8 @@ from flexcage.fem.model import FEModel
 from flexcage.mesh.cage_mesh import WALL_GROUPS, pocket_groups
 from flexcage.modes import craig_bampton, free_free, ritz
 from flexcage.modes.basis import ModeBasis
-from flexcage.modes.door.body import ReducedBody
-from flexcage.modes.door.cage import basis_from_body
+from flexcage.modes.exchange.body import ReducedBody
+from flexcage.modes.exchange.cage import basis_from_body
 from flexcage.modes.orientation import oriented
 from flexcage.modes.spec import KINDS, ModesSpec
 from flexcage.modes.stiffening import spin_stiffness

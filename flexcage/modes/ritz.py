@@ -18,10 +18,10 @@ from scipy.linalg import eigh
 
 from flexcage.core.errors import InputError
 from flexcage.core.threads import on_all_cores
+from flexcage.fem.blocked_products import inner_products, subtract_product
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.modal import free_modes
 from flexcage.fem.symmetry import find_symmetry
-from flexcage.fem.tall import inner_products, subtract_product
 from flexcage.modes.basis import ModeBasis, ResidualFlexibility
 from flexcage.modes.lands import land_vectors
 from flexcage.modes.pockets import LOADS, LOADS_PER_POCKET, check_groups, sparse_pocket_loads
@@ -223,8 +223,8 @@ def coupling(stiffness: np.ndarray, share: np.ndarray, pocket_count: int) -> tup
     """
     scale = np.sqrt(np.diag(stiffness) / share)
     pocket, local = np.divmod(np.arange(len(stiffness)), len(stiffness) // pocket_count)
-    apart = pocket[:, None] != pocket[None, :]
-    ratios = np.where(apart, np.abs(stiffness) / np.outer(scale, scale), 0.0)
+    different = pocket[:, None] != pocket[None, :]
+    ratios = np.where(different, np.abs(stiffness) / np.outer(scale, scale), 0.0)
     even = (local < LOADS["linear"]) & (local % 2 == 0)
     return float(ratios[:, even].max()), float(ratios[:, ~even].max())
 

@@ -107,7 +107,7 @@ def instant(ds: xarray.Dataset, index: int) -> Instant:
         tilt,
         force[:, 0],
         force[:, 1],
-        _beside(at),
+        _neighbour_forces(at),
         (at["cage_position"].values, at["cage_quaternion"].values) if caged else None,
         at["inner_position"].values,
         float(at["inner_angle"]),
@@ -118,7 +118,7 @@ def instant(ds: xarray.Dataset, index: int) -> Instant:
     )
 
 
-def _beside(at: xarray.Dataset) -> dict[str, np.ndarray]:
+def _neighbour_forces(at: xarray.Dataset) -> dict[str, np.ndarray]:
     """Forces of one instant on the faces of pockets, or without a cage between neighbours."""
     if not metrics.caged(at):
         return {f"next {metrics.element(at)}": at[NEIGHBOURS].values}

@@ -46,13 +46,13 @@ def _panel(ax: Any, records: list[Mapping[str, Any]], labels: list[str], goal: f
     for k, level in enumerate(levels):
         found = [r for r in records if r["level"] == level and isfinite(r["difference"])]
         spread = np.array([r["spread"] if isfinite(r["spread"]) else 0.0 for r in found])
-        apart = np.array([r["difference"] for r in found])
+        difference = np.array([r["difference"] for r in found])
         at = np.array([labels.index(r["label"]) for r in found]) + 0.25 * (k - 0.5)
         ax.errorbar(
-            100.0 * apart, at, xerr=100.0 * spread, fmt="o", ms=4, lw=1.2, capsize=2.5,
+            100.0 * difference, at, xerr=100.0 * spread, fmt="o", ms=4, lw=1.2, capsize=2.5,
             color=sheet.CYCLE[k], label=level,
         )  # fmt: skip
-        reach = max(reach, float((np.abs(apart) + spread).max(initial=0.0)))
+        reach = max(reach, float((np.abs(difference) + spread).max(initial=0.0)))
     ax.axvspan(-100.0 * goal, 100.0 * goal, color=sheet.HAIR, alpha=0.5, lw=0)
     limit = min(110.0 * reach, _WIDEST)
     ax.set(xlim=(-limit, limit), ylim=(len(labels) - 0.4, -0.6), xlabel="difference [%]")

@@ -200,8 +200,8 @@ def histories(
     """
     if bearing is not None:
         bearing = at_own_angles(metrics.settled(ds, settle), bearing)
-    beside = _pocket_panel if metrics.caged(ds) else _neighbour_panel
-    panels: list[Callable[..., None]] = [_speed_panel, beside]
+    force_panel = _pocket_panel if metrics.caged(ds) else _neighbour_panel
+    panels: list[Callable[..., None]] = [_speed_panel, force_panel]
     if drive_varies(ds, loads):
         panels.insert(0, _drive_panel)
     if root_stress is not None:

@@ -106,8 +106,8 @@ def _arrows(
         if abs(f) < 0.01 * most or most == 0.0:
             continue
         way = np.array([0.0, np.cos(psi), np.sin(psi)])
-        tip, beside = picture.place(np.stack([radius * way, 1.05 * radius * way]))
-        along = (beside - tip) / np.linalg.norm(beside - tip)
+        tip, outer = picture.place(np.stack([radius * way, 1.05 * radius * way]))
+        along = (outer - tip) / np.linalg.norm(outer - tip)
         tail = tip - np.sign(f) * _ARROW * abs(f) / most * along
         form = {"arrowstyle": "-|>", "color": colour, "lw": 1.6, "shrinkA": 0, "shrinkB": 0}
         ax.annotate("", tuple(tip), tuple(tail), arrowprops=form, annotation_clip=False)

@@ -136,12 +136,12 @@ def heading(figure: Figure, title: str, subtitle: str = "", *, left: float = 36.
             fit_width(figure, artist, w - 2.0 * left)
 
 
-def fit_width(figure: Figure, artist: Any, room: float) -> None:
-    """Make a text smaller until it fits into ``room`` pixels."""
+def fit_width(figure: Figure, artist: Any, width: float) -> None:
+    """Make a text smaller until it fits into ``width`` pixels."""
     canvas: Any = figure.canvas
     wide = artist.get_window_extent(canvas.get_renderer()).width
-    if wide > room:
-        artist.set_fontsize(artist.get_fontsize() * room / wide)
+    if wide > width:
+        artist.set_fontsize(artist.get_fontsize() * width / wide)
 
 
 def colour_bar(

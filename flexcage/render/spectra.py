@@ -14,7 +14,7 @@ from flexcage.render import sheet
 from flexcage.results import metrics
 from flexcage.results.slip import BearingNumbers, at_own_angles
 from flexcage.results.spectra import (
-    APART,
+    RESOLVED_BINS,
     SIGNALS,
     own_frequencies,
     run_frequencies,
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     import xarray
 
 _LEFT, _WIDTH, _HEIGHT, _BETWEEN, _TOP = 140, 1240, 240, 34, 190
-_BESIDE, _COLUMN = 300, 26  # pixels beside the panels for what they show, and its characters
+_PANEL, _COLUMN = 300, 26  # pixels beside the panels for what they show, and its characters
 _NAMES = 118  # pixels from one name of a line to the next
 _REACH = 3.0  # frequencies shown, over the fastest line
 _DECADES = 6.0  # shown at most
@@ -54,7 +54,7 @@ def spectra_picture(
     bearing = at_own_angles(part, bearing)
     resolution = run_resolution(part, bearing)
     lines = run_frequencies(part, bearing)
-    marked = {name: f for name, f in lines.items() if f >= APART * resolution}
+    marked = {name: f for name, f in lines.items() if f >= RESOLVED_BINS * resolution}
     found = {signal.title: signal.of(part) for signal in SIGNALS.values()}
     shown = {
         name: spectral_density(series, resolution=resolution)
@@ -63,7 +63,7 @@ def spectra_picture(
     reach = min(_REACH * max(lines.values()), *(float(d["frequency"][-1]) for d in shown.values()))
     with sheet.style():
         height = _TOP + len(shown) * (_HEIGHT + _BETWEEN) + 84
-        figure = sheet.new_figure(_LEFT + _WIDTH + _BESIDE, height)
+        figure = sheet.new_figure(_LEFT + _WIDTH + _PANEL, height)
         sheet.heading(figure, title, _facts(part, next(iter(shown.values())), note))
         for i, (name, density) in enumerate(shown.items()):
             rect = (_LEFT, _TOP + i * (_HEIGHT + _BETWEEN), _WIDTH, _HEIGHT)
@@ -170,5 +170,5 @@ def _unmarked(lines: Mapping[str, float], marked: Mapping[str, float], resolutio
     names = [f"{name} {f:.1f} Hz" for name, f in lines.items() if name not in marked]
     if not names:
         return ""
-    least = f"{APART * resolution:.0f} Hz"
+    least = f"{RESOLVED_BINS * resolution:.0f} Hz"
     return f"a run this short tells lines from {least} on; not marked: {', '.join(names)}"

@@ -14,7 +14,7 @@ from flexcage.report.blocks import Chart
 from flexcage.report.plots import new_figure, plain
 
 MOST_LINES = len(CYCLE)  # lines in a chart; with more combinations only points are drawn
-_BESIDE = 0.1  # of the distance between two words: how far groups stand apart, if there are few
+_GROUP_OFFSET = 0.1  # of the distance between two words: between groups, if there are few
 _SPREAD = 0.8  # of that distance: how far all groups may reach
 _SYMBOLS = ("circle", "square", "diamond", "triangle-up", "x", "star")
 MOST_NAMED = 2 * len(_SYMBOLS) * len(CYCLE)  # kinds of marks; with more groups, pointing names one
@@ -95,12 +95,12 @@ def _figure(output: Output, abscissa: Abscissa, names: Sequence[str]) -> Any:
         if numeric:
             points.sort(key=lambda i: abscissa.values[i])
         once = len({str(abscissa.values[i]) for i in points}) == len(points)
-        apart = min(_BESIDE, _SPREAD / len(groups))
-        values, beside = abscissa.values, apart * (k - 0.5 * (len(groups) - 1))
+        offset = min(_GROUP_OFFSET, _SPREAD / len(groups))
+        values, shift = abscissa.values, offset * (k - 0.5 * (len(groups) - 1))
         few = len(groups) <= MOST_LINES
         lines = abscissa.joined and numeric and once and few and len(points) > 1
         figure.add_scatter(
-            x=[words.index(str(values[i])) + beside if words else float(values[i]) for i in points],
+            x=[words.index(str(values[i])) + shift if words else float(values[i]) for i in points],
             y=output.mean[points].tolist(),
             error_y=_bars(output, points, mark(k)["color"]),
             mode="lines+markers" if lines else "markers",

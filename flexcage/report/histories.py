@@ -42,8 +42,8 @@ def history_charts(scene: Scene, numbers: BearingNumbers) -> list[Chart]:
     histories and of the orbit show."""
     ds = scene.dataset
     numbers = at_own_angles(metrics.settled(ds, scene.settle), numbers)
-    beside = _pocket_force(ds) if metrics.caged(ds) else _neighbour_force(ds)
-    charts = [_carrier_speed(ds, numbers), beside]
+    contacts = _pocket_force(ds) if metrics.caged(ds) else _neighbour_force(ds)
+    charts = [_carrier_speed(ds, numbers), contacts]
     if drive_varies(ds, scene.loads):
         charts = [*_drive(ds, scene.loads), *charts]
     if scene.stress is not None:

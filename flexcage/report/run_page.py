@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     from flexcage.render.album import StressPictures
 
 #: Sections of a summary that have their own place.
-_APART = _ENERGY, _SOLVER, _TIMES = tuple(
+_OWN_PLACE = _ENERGY, _SOLVER, _TIMES = tuple(
     FIGURES[key].section for key in ("energy_audit", "steps", "wall_total")
 )
 #: Pictures that the page shows as charts.
@@ -134,7 +134,7 @@ def _leading(account: RunAccount) -> list[Image]:
 def _figures(account: RunAccount) -> PageSection:
     large = marked(LARGE)
     tiles = [_tile(row) for row in account.summary if row.key in large]
-    kept = [s for s in account.summary.sections if s.title not in _APART]
+    kept = [s for s in account.summary.sections if s.title not in _OWN_PLACE]
     note = (
         "± is half of a 95 % interval. Figures without ± are counts, values of one instant, or "
         "means of too few passes; – is not known. A click on a heading sorts."

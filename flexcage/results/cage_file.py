@@ -37,7 +37,7 @@ from flexcage.core.missing import POINTER, is_pointer
 from flexcage.core.reading import json_of, table_of
 from flexcage.core.writing import check_name, check_own, move_into_place
 from flexcage.mesh.cage_mesh import CageMesh
-from flexcage.results.door import Arrays, read_zip
+from flexcage.results.checked_zarr import Arrays, read_zip
 from flexcage.results.repeating import pack, unpack
 
 FORMAT = 2

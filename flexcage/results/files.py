@@ -16,7 +16,7 @@ from flexcage.core.errors import InputError, RunFailed, is_full, unwritable
 from flexcage.core.writing import replace
 
 
-def make_room(path: Path, overwrite: bool) -> None:
+def prepare_folder(path: Path, overwrite: bool) -> None:
     """Make sure that ``path`` is an empty folder that can be written."""
     try:
         if path.exists() and any(path.iterdir()):

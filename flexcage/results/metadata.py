@@ -18,8 +18,8 @@ from flexcage import _version
 from flexcage.core.errors import InputError
 from flexcage.core.reading import json_of, read_json, table_of
 from flexcage.core.writing import check_name
+from flexcage.results.checked_zarr import NODE, TYPES, array_shape, group_attributes, read_array
 from flexcage.results.commit import FORMAT, SIDE, damaged
-from flexcage.results.door import NODE, TYPES, array_shape, group_attributes, read_array
 from flexcage.results.layout import StoreLayout, coords_from_json, coords_to_json
 from flexcage.results.registry import LABELS, TIME, TIME_HF, Variable
 from flexcage.results.shards import BLOSC, SLOTS

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 TURNS = 8  # of the cage in a segment of a run's spectra, if the run is that long
 BAND = (2e3, 20e3)  # Hz, of the vibration whose envelope is shown: what sensors and shocks share
-APART = 3  # bins of a Hann window from which on a line stands apart from the mean and its like
+RESOLVED_BINS = 3  # of a Hann window, from which on a line is resolved from the mean and others
 
 
 def bearing_frequencies(
@@ -158,8 +158,9 @@ def run_resolution(ds: xarray.Dataset, bearing: BearingNumbers) -> float:
     if not resolves(ds, bearing):
         fastest = max(run_frequencies(ds, bearing).values())
         raise InputError(
-            f"Spectra want {APART} periods of the bearing's fastest line, {fastest:.4g} Hz; there "
-            f"are {length * fastest:.2g} in {length * 1e3:.4g} ms: raise solver.duration.",
+            f"Spectra want {RESOLVED_BINS} periods of the bearing's fastest line, "
+            f"{fastest:.4g} Hz; there are {length * fastest:.2g} in {length * 1e3:.4g} ms: raise "
+            "solver.duration.",
             where="solver.duration",
             value=length,
         )
@@ -168,7 +169,7 @@ def run_resolution(ds: xarray.Dataset, bearing: BearingNumbers) -> float:
 
 def resolves(ds: xarray.Dataset, bearing: BearingNumbers) -> bool:
     """Whether the run is long enough for any line of its bearing to stand apart."""
-    return _length(ds) * max(run_frequencies(ds, bearing).values()) >= APART
+    return _length(ds) * max(run_frequencies(ds, bearing).values()) >= RESOLVED_BINS
 
 
 def _length(ds: xarray.Dataset) -> float:
@@ -302,8 +303,8 @@ def vibration_figures(
     frequency = spectrum["frequency"].values
     for name, line in lines.items():
         near = np.abs(frequency - line) <= 2.0 * frequency[1]
-        apart = APART * frequency[1] <= line <= frequency[-1]
-        figures[f"envelope at {name}"] = float(spectrum.values[near].max()) if apart else np.nan
+        resolved = RESOLVED_BINS * frequency[1] <= line <= frequency[-1]
+        figures[f"envelope at {name}"] = float(spectrum.values[near].max()) if resolved else np.nan
     return figures
 
 

@@ -61,9 +61,9 @@ class Record:
         if np.isnan(one.value) != np.isnan(other.value):
             return float("inf")  # such as a force while in contact, without any in one half
         both = float(np.hypot(one.margin, other.margin))
-        apart = abs(one.value - other.value)
-        rounding = np.isfinite(both) and apart <= 1e-12 * abs(self.value)
-        return 0.0 if rounding else apart / both
+        difference = abs(one.value - other.value)
+        rounding = np.isfinite(both) and difference <= 1e-12 * abs(self.value)
+        return 0.0 if rounding else difference / both
 
 
 def spread(one: Record, other: Record) -> float:

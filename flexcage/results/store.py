@@ -28,6 +28,7 @@ from flexcage.core.arrays import UNREADABLE
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.core.reading import check_size
 from flexcage.core.writing import replace
+from flexcage.results.checked_zarr import NODE
 from flexcage.results.commit import (
     COMMIT,
     SIDE,
@@ -39,8 +40,7 @@ from flexcage.results.commit import (
     vouches,
     write_commit,
 )
-from flexcage.results.door import NODE
-from flexcage.results.files import disk, joined, load, make_room, npz_of, save
+from flexcage.results.files import disk, joined, load, npz_of, prepare_folder, save
 from flexcage.results.layout import Arrays, StoreLayout, label_dataset, make_layout
 from flexcage.results.metadata import create_arrays, metadata_checksum, read_layout, slots
 from flexcage.results.registry import TIME, TIME_HF, Variable, rounded_loads
@@ -257,7 +257,7 @@ class RunStore(MemoryRunStore):
         if path is None:
             return MemoryRunStore(layout)
         path = Path(path)
-        make_room(path, overwrite)
+        prepare_folder(path, overwrite)
         with disk(path, 0):
             create_arrays(path, layout)
             commit = first_commit(metadata_checksum(path, layout))

@@ -149,19 +149,19 @@ def _passes_ring(o: RunOutcome) -> Iterator[RunWarning]:
         centre = metrics.centre_of(ds, "cage")
         if side == "inner":
             centre = centre - metrics.centre_of(ds, "inner")
-        swing = np.hypot(*centre.T) + cage.axial_reach * np.sin(tilt)
-        at = int(swing.argmax())
-        if gap > 0.0 and stop is not None and swing[at] > gap:
+        excursion = np.hypot(*centre.T) + cage.axial_reach * np.sin(tilt)
+        at = int(excursion.argmax())
+        if gap > 0.0 and stop is not None and excursion[at] > gap:
             yield RunWarning(
                 "meets_ring",
                 f"The cage meets {limit.name}: its centre and its tilt together reach "
-                f"{_um(swing[at])} (t = {float(ds['time'][at]) * 1e3:.4g} ms), and the gap there "
-                f"is {_um(gap)}; land_force has the force.",
+                f"{_um(excursion[at])} (t = {float(ds['time'][at]) * 1e3:.4g} ms), and the gap "
+                f"there is {_um(gap)}; land_force has the force.",
             )
-        elif gap > 0.0 and stop is None and swing[at] > gap + _PASSED:
+        elif gap > 0.0 and stop is None and excursion[at] > gap + _PASSED:
             yield RunWarning(
                 "passes_ring",
-                f"The cage passes through {limit.name}: it swings by {_um(swing[at])} (t = "
+                f"The cage passes through {limit.name}: it swings by {_um(excursion[at])} (t = "
                 f"{float(ds['time'][at]) * 1e3:.4g} ms), but the gap there is {_um(gap)}, and no "
                 "contact between them is computed.",
             )

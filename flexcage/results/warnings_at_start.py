@@ -11,7 +11,7 @@ from flexcage.core.units import describe
 from flexcage.core.warning import RunWarning
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
-from flexcage.geometry.odd import odd_geometry
+from flexcage.geometry.plausibility import implausible_geometry
 from flexcage.mesh.cage_mesh import WALL_GROUPS, CageMesh, pocket_groups
 from flexcage.modes.basis import BodyFit
 from flexcage.results.warnings import has_land
@@ -38,8 +38,8 @@ class Setup:
     highest: float = 0.0  # Hz, of the dynamic modes
 
 
-def _odd_geometry(setup: Setup) -> Iterator[RunWarning]:
-    yield from odd_geometry(setup.bearing, setup.cage)
+def _implausible_geometry(setup: Setup) -> Iterator[RunWarning]:
+    yield from implausible_geometry(setup.bearing, setup.cage)
 
 
 def _pinched(setup: Setup) -> Iterator[RunWarning]:
@@ -148,7 +148,7 @@ def _rigid_land(setup: Setup) -> Iterator[RunWarning]:
 
 #: What is looked at of a cage when a run begins.
 AT_START: tuple[Callable[[Setup], Iterator[RunWarning]], ...] = (
-    _odd_geometry,
+    _implausible_geometry,
     _pinched,
     _sharp_corners,
     _no_residual_flexibility,

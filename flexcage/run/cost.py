@@ -24,7 +24,7 @@ from flexcage.core.units import describe
 from flexcage.core.writing import replace
 from flexcage.integrate.foresight import LONG
 from flexcage.integrate.recorded import new_store
-from flexcage.results import room
+from flexcage.results import disk_space
 from flexcage.results.layout import StoreLayout
 from flexcage.stages import bearing_to_compile
 
@@ -58,10 +58,10 @@ class Cost:
 
     def _bytes_of(self, case: Case) -> float:
         flexible, output = case.cage_model == "flexible", case.output
-        rate = room.expected_rate(
+        rate = disk_space.expected_rate(
             self._layout, output.rate, output.vibration_rate, flexible=flexible
         )
-        return room.expected_size(rate, case.solver.duration, flexible=flexible)
+        return disk_space.expected_size(rate, case.solver.duration, flexible=flexible)
 
     @cached_property
     def _layout(self) -> StoreLayout:
@@ -71,7 +71,7 @@ class Cost:
         output = self._first.output
         return new_store(None, bearing, recording, duration=0.0, output=output, attrs={}).layout
 
-    def tell(
+    def announce(
         self,
         folder: Path | None,
         *,
@@ -85,7 +85,7 @@ class Cost:
         if cases of the study have shown it. ``quiet``: refuse only.
         """
         if folder is not None and self.keeps and self.cases:
-            room.announce(folder, self.disk, *self._words(folder), quiet=quiet)
+            disk_space.announce(folder, self.disk, *self._words(folder), quiet=quiet)
         if each is not None:
             seconds = each * self.cases / workers
         elif not self.unknown:
@@ -99,7 +99,7 @@ class Cost:
         """What needs room, and what would be enough."""
         assert self._first is not None
         other = "or name a folder on another disk"
-        share = _WITHIN * room.left_at(folder) / self.disk
+        share = _WITHIN * disk_space.free_bytes(folder) / self.disk
         if self.cases > 1:
             what = f"the runs of {self.cases:,} cases need"
             return what, f"keep = 'figures' keeps no runs, {int(share * self.cases):,} fit; {other}"
@@ -124,12 +124,12 @@ class Cost:
         )
 
 
-def told_cost(case: Case, folder: Path | None, *, quiet: bool) -> None:
+def report_cost(case: Case, folder: Path | None, *, quiet: bool) -> None:
     """Say what one run will take; EnvironmentLacks where the disk has no room. ``quiet``: only
     that."""
     cost = Cost(keeps=folder is not None)
     cost.counted(case)
-    cost.tell(folder, quiet=quiet)
+    cost.announce(folder, quiet=quiet)
 
 
 def expected_seconds(case: Case) -> float | None:

@@ -231,7 +231,7 @@ def open_folder(folder: Path) -> tuple[Case, MemoryRunStore, tuple[RunWarning, .
     return case, store, (warning,)
 
 
-def tell_unfinished(folder: Path, store: MemoryRunStore, duration: float) -> None:
+def report_unfinished(folder: Path, store: MemoryRunStore, duration: float) -> None:
     """Log that a stored run is not finished, so that what is made of it is of a part;
     InputError if it has no sample yet. ``duration`` [s]: of the whole run."""
     if store.complete:
@@ -286,6 +286,6 @@ def _edit(path: Path, text: str, case: Case) -> str:
 
 def _named(keys: list[str], new: dict[str, Any], old: dict[str, Any]) -> str:
     """The first of the values that differ, in brackets."""
-    told = [f"{key} is {new.get(key)}, was {old.get(key)}" for key in keys[:3]]
+    differences = [f"{key} is {new.get(key)}, was {old.get(key)}" for key in keys[:3]]
     more = f", and {len(keys) - 3} more" if len(keys) > 3 else ""
-    return f" ({'; '.join(told)}{more})" if told else ""
+    return f" ({'; '.join(differences)}{more})" if differences else ""

@@ -11,8 +11,8 @@ from math import ceil, floor, log10, pi
 import numpy as np
 
 from flexcage.case import Case
-from flexcage.case.checks import land_beside_shoulder, not_reached
-from flexcage.case.odd_values import odd_values
+from flexcage.case.checks import land_clearance_mismatch, not_reached
+from flexcage.case.plausibility import implausible_values
 from flexcage.case.unread import not_used
 from flexcage.core.units import describe
 from flexcage.core.warning import RunWarning
@@ -32,49 +32,49 @@ _SLIP = 1.05  # longer than by the epicyclic speed, for cages slip
 _INSTANTS = 2001  # at which the drive's speed is looked at
 _LONGEST = 1e6  # times the duration that is looked for
 
-_told: ContextVar[bool] = ContextVar("told", default=False)
+_reported: ContextVar[bool] = ContextVar("reported", default=False)
 
 
 def foreseen(case: Case, *, stress: bool = True) -> tuple[RunWarning, ...]:
     """What a case alone tells of its run's figures; ``stress``: is the cage's to be computed?"""
     said = [("not_reached", text) for text in not_reached(case)]
     said += [("not_used", text) for text in not_used(case)]
-    said += odd_values(case)
+    said += implausible_values(case)
     if case.cage is not None:
-        said += [("land_clearance", text) for text in land_beside_shoulder(case)]
+        said += [("land_clearance", text) for text in land_clearance_mismatch(case)]
         if text := beyond_service(case.cage.material, case.cage.temperature):
             said.append(("cage_temperature", text))
     found = [*(RunWarning(*each) for each in said), *_short(case), *_fast(case)]
     return (*found, *(_coarse(case) if stress else ()))
 
 
-def told_already() -> bool:
+def already_reported() -> bool:
     """Is this run one of several that were told of at once?"""
-    return _told.get()
+    return _reported.get()
 
 
-def told_before(case: Case, *, stress: bool) -> tuple[RunWarning, ...]:
-    """What is foreseen of a run, logged unless it was with that of others (``told_at_once``)."""
+def report_before(case: Case, *, stress: bool) -> tuple[RunWarning, ...]:
+    """What is foreseen of a run; logs it unless ``reported_at_once`` has done so."""
     found = foreseen(case, stress=stress)
-    if not _told.get():
+    if not _reported.get():
         for warning in found:
             log.warning(warning.text)
     return found
 
 
 @contextmanager
-def told_at_once(cases: Iterable[Case], *, stress: bool = True) -> Iterator[None]:
+def reported_at_once(cases: Iterable[Case], *, stress: bool = True) -> Iterator[None]:
     """Log what is foreseen of several runs, once a kind, with the number of cases; those that are
     simulated within do not log it again."""
-    tell(cases, stress=stress)
-    token = _told.set(True)
+    report_foreseen(cases, stress=stress)
+    token = _reported.set(True)
     try:
         yield
     finally:
-        _told.reset(token)
+        _reported.reset(token)
 
 
-def tell(cases: Iterable[Case], *, stress: bool = True) -> None:
+def report_foreseen(cases: Iterable[Case], *, stress: bool = True) -> None:
     """Log what is foreseen of several runs, once a kind, with the number of cases."""
     first: dict[str, list[str]] = {}  # by kind, what the first case that has it is told
     count: dict[str, int] = {}

@@ -90,7 +90,7 @@ class Run(SummarisedRun):
             format=format,
         )  # fmt: skip
         if self.effort is not None:
-            self.tell_times()
+            self.report_times()
         return paths
 
     @property

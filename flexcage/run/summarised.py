@@ -42,7 +42,7 @@ class SummarisedRun(RunRecord):
         """What the reader of the run's figures must know, from its start and from its results."""
         return (*self.edited, *(self.summary_at_end.warnings or ()))
 
-    def tell_times(self) -> None:
+    def report_times(self) -> None:
         """Bring the wall times of a run just computed up to now in its summary, the stored one
         included."""
         self.summary = timed(self.summary, self)

@@ -38,8 +38,8 @@ def _tabled(run: RunRecord, names: Sequence[str] | None) -> tuple[xarray.Dataset
         if name in ds.variables:
             found.append(name)
             continue
-        export.check_there(name, [*map(str, ds.data_vars), *BESIDE])
-        more = BESIDE[name](run)
+        export.check_there(name, [*map(str, ds.data_vars), *EXTRA_TABLES])
+        more = EXTRA_TABLES[name](run)
         ds = ds.assign(more)
         found += more
     return ds, found
@@ -49,14 +49,14 @@ def _stress(run: RunRecord) -> dict[str, Any]:
     import xarray
 
     history = run.stress_history
-    told = {"units": "Pa", "long_name": "largest equivalent stress since the sample before"}
+    attrs = {"units": "Pa", "long_name": "largest equivalent stress since the sample before"}
     names = {"place": list(history.place_names)}
-    return {"stress": xarray.DataArray(history.places, names, (TIME, "place"), attrs=told)}
+    return {"stress": xarray.DataArray(history.places, names, (TIME, "place"), attrs=attrs)}
 
 
 def _stress_peak(run: RunRecord) -> dict[str, Any]:
-    told = {"units": "Pa", "long_name": "largest equivalent stress of the cage off flat walls"}
-    return {"stress_peak": (TIME, run.stress_history.peak, told)}
+    attrs = {"units": "Pa", "long_name": "largest equivalent stress of the cage off flat walls"}
+    return {"stress_peak": (TIME, run.stress_history.peak, attrs)}
 
 
 def _film(run: RunRecord) -> dict[str, Any]:
@@ -76,7 +76,7 @@ def _steps(run: RunRecord) -> dict[str, Any]:
 
 
 #: What a run has beside its dataset, by name: the variables that it becomes.
-BESIDE: Mapping[str, Callable[[RunRecord], dict[str, Any]]] = {
+EXTRA_TABLES: Mapping[str, Callable[[RunRecord], dict[str, Any]]] = {
     "stress": _stress,
     "stress_peak": _stress_peak,
     "film_thickness": _film,

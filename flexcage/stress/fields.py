@@ -18,7 +18,7 @@ from typing import Protocol
 import numpy as np
 
 from flexcage.core.threads import on_all_cores
-from flexcage.fem.effort import told_stress
+from flexcage.fem.effort import stress_progress
 from flexcage.fem.symmetry import CyclicSymmetry, find_symmetry
 from flexcage.modes.pockets import pocket_frames
 from flexcage.stress.midpoints import edges_across
@@ -110,7 +110,7 @@ class UnitFields:
         symmetry = find_symmetry(recovery.model, recovery.pocket_count)
         first = self._loads(0)
         every = recovery.pocket_count * first.shape[1]
-        with told_stress(recovery.model, f"{every} forces in pockets", every) as done:
+        with stress_progress(recovery.model, f"{every} forces in pockets", every) as done:
             self._mode_values  # noqa: B018  (before threads share it)
             if symmetry is None:
                 recovery.solver.factor()
@@ -148,7 +148,7 @@ class UnitFields:
         ]
         columns = np.stack(loads, axis=1)
         every = columns.shape[1]
-        with told_stress(recovery.model, f"{every} forces on lands", every) as done:
+        with stress_progress(recovery.model, f"{every} forces on lands", every) as done:
             self._mode_values  # noqa: B018  (before threads share it)
             recovery.solver.factor()
 

@@ -24,7 +24,7 @@ from flexcage.core.errors import InputError
 from flexcage.core.units import mm
 from flexcage.fem.contact import ContactProblem, ContactState, NoBalance, Touching
 from flexcage.fem.curved import curved_stiffness, curved_stress, face_points
-from flexcage.fem.parting import Parted
+from flexcage.fem.separation import SeparationModel
 from flexcage.geometry.materials import Material
 from flexcage.geometry.riveted_joint import JointShape
 from flexcage.mesh.riveted_joint import (
@@ -229,14 +229,14 @@ class RivetedJoint:
         return ContactProblem(self.parted, pairs, penalty=self.penalty)
 
     @cached_property
-    def parted(self) -> Parted:
+    def parted(self) -> SeparationModel:
         """The bodies, with all but what their surfaces do against each other eliminated."""
         b = self.bodies
         surfaces = [(b.faces[n, one], b.faces[n, other]) for n, (one, other) in CONTACTS.items()]
         section = 0.25 * pi * self.shape.shank_diameter**2
         springs = _SPRINGS * self.penalty * section / len(b.nodes)
         K = curved_stiffness(b.nodes, b.tets, self.material)
-        return Parted(K, b.nodes, b.tets, surfaces, self.held, springs=springs)
+        return SeparationModel(K, b.nodes, b.tets, surfaces, self.held, springs=springs)
 
     @cached_property
     def held(self) -> np.ndarray:

@@ -211,10 +211,10 @@ def land_rubbing(ds: xarray.Dataset, cage: Cage, land: LandSpec) -> tuple[float,
     if land.kind == "film":
         return float("nan"), area
     ring = "outer" if outer else "inner"
-    apart = (ds["cage_position"] - ds[f"{ring}_position"]).values[:, 1:]
+    eccentricity = (ds["cage_position"] - ds[f"{ring}_position"]).values[:, 1:]
     drift = (ds["cage_velocity"] - ds[f"{ring}_velocity"]).values[:, 1:]
-    reach = np.linalg.norm(apart, axis=1)
-    line = apart / np.where(reach > 0.0, reach, 1.0)[:, None]
+    reach = np.linalg.norm(eccentricity, axis=1)
+    line = eccentricity / np.where(reach > 0.0, reach, 1.0)[:, None]
     normal = np.abs((force * line).sum(axis=1))
     turning = ds["cage_omega"].sel(axis="x").values - (0.0 if outer else ds["inner_speed"].values)
     side = 1.0 if outer else -1.0  # the land touches ahead of the centre, or behind it

@@ -121,9 +121,9 @@ def _edit(file: Path, text: str, planned: Mapping[str, Any]) -> str:
     keys = [key for key in {**was, **now} if was.get(key) != now.get(key)]
     if not keys:
         return ""
-    told = [f"{key} is {now.get(key, 'gone')}, was {was.get(key, 'not there')}" for key in keys]
+    changes = [f"{key} is {now.get(key, 'gone')}, was {was.get(key, 'not there')}" for key in keys]
     more = f", and {len(keys) - _NAMED} more" if len(keys) > _NAMED else ""
-    return f"'{file}' was edited ({'; '.join(told[:_NAMED])}{more}); {rest}"
+    return f"'{file}' was edited ({'; '.join(changes[:_NAMED])}{more}); {rest}"
 
 
 def _entries(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:

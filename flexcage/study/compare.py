@@ -13,7 +13,7 @@ from flexcage.core.listing import PAGE
 from flexcage.core.writing import replace
 from flexcage.results.compared import Comparison
 from flexcage.run import Run
-from flexcage.run.foreseen import told_at_once
+from flexcage.run.foreseen import reported_at_once
 from flexcage.simulate import load_run, simulate
 
 MODELS = ("rigid", "flexible")
@@ -48,7 +48,7 @@ def compare_case(
     the runs go into ``out`` too."""
     case.its_cage  # noqa: B018  (says so where there is none)
     cases = {model: case.replace("cage.model", model) for model in MODELS}
-    with told_at_once(cases.values()):
+    with reported_at_once(cases.values()):
         runs = {
             model: simulate(
                 each, out=path_of(out, "out") / model if out else None, progress=progress

@@ -26,7 +26,7 @@ from flexcage.results.row import SummaryRow
 from flexcage.results.statistics import spread
 from flexcage.results.summary import Summary
 from flexcage.run.folder import write_case
-from flexcage.run.foreseen import told_at_once
+from flexcage.run.foreseen import reported_at_once
 from flexcage.study.convergence import Convergence, Finding
 from flexcage.study.origin import Origin, check_origins, stored_origin, this_one
 from flexcage.study.work import run_in
@@ -154,7 +154,7 @@ def converge(
     write_case(out, case)
     wanted = {level.case.hash: level for level in (*steps, Level("case", "as is", case))}
     _check_physics(wanted, out / "cases", allowed=other_version)
-    with told_at_once(level.case for level in wanted.values()):
+    with reported_at_once(level.case for level in wanted.values()):
         figures = _run_all(wanted, out / "cases", progress)
     found = _compare(case, steps, figures, out / "cases")
     found.write(out)

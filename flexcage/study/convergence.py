@@ -45,10 +45,10 @@ class Finding:
     @property
     def digits(self) -> int:
         """Digits that are known to agree."""
-        apart = abs(self.difference) + self.spread
-        if not isfinite(apart):
+        total = abs(self.difference) + self.spread
+        if not isfinite(total):
             return 0
-        return MOST_DIGITS if apart == 0.0 else min(max(floor(-log10(apart)), 0), MOST_DIGITS)
+        return MOST_DIGITS if total == 0.0 else min(max(floor(-log10(total)), 0), MOST_DIGITS)
 
     @property
     def verdict(self) -> str:

@@ -51,7 +51,8 @@ class Map:
     """Unknowns, conditions and outputs of a map, and how it is sampled.
 
     ``conditions`` are points as of a study's list, each with its ``label``. ``starts`` runs of
-    every point and condition begin with pushes of their own.
+    every point and condition begin with pushes of their own, as strong as ``push`` unless
+    "start.push" is an unknown.
     """
 
     called: ClassVar[str] = "The map"
@@ -105,8 +106,8 @@ class Map:
             for start in range(self.starts):
                 seed = self.seed + row * self.starts + start
                 samples.append({
-                    "label": f"{row}.{start}", **changes,
-                    "start.push": format_si(self.push, "mm/s"), "start.seed": seed,
+                    "label": f"{row}.{start}",
+                    "start.push": format_si(self.push, "mm/s"), "start.seed": seed, **changes,
                 })  # fmt: skip
         return Study(
             name=self.name, case=self.case, outputs=self.outputs, keep=self.keep,

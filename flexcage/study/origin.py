@@ -38,7 +38,7 @@ def this_one() -> Origin:
     return Origin(__version__, physics())
 
 
-def told_apart(origins: Iterable[Origin]) -> str:
+def origins_note(origins: Iterable[Origin]) -> str:
     """A sentence if cases are not all of one flexcage, or of another than this one; else
     nothing."""
     found = list(origins)

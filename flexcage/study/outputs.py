@@ -217,13 +217,13 @@ def lacking(beyond: tuple[str, ...], figures: Collection[str]) -> tuple[str, ...
     """Outputs beyond a summary that a case's figures do not hold and its cage can give: a rigid
     one, which has no modes, gives none that needs a flexible one, and no cage none of a cage."""
     rigid, caged = "mode_count" not in figures, "cage_mass" in figures
-    apart = "element_touches" not in figures  # may elements touch?
+    separated = "element_touches" not in figures  # may elements touch?
     return tuple(
         n for n in beyond
         if n not in figures
         and not (rigid and _needs_flexible(n))
         and not (not caged and _needs_cage(n))
-        and not (apart and _of_neighbours(n))
+        and not (separated and _of_neighbours(n))
         and not (caged and n in FIGURES and FIGURES[n].needs == FULL)
     )  # fmt: skip
 

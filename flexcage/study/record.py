@@ -24,7 +24,7 @@ from flexcage.results.row import format_value
 from flexcage.run import Run
 from flexcage.simulate import load_run
 from flexcage.study.folder import CaseRow, Folder
-from flexcage.study.origin import Origin, told_apart
+from flexcage.study.origin import Origin, origins_note
 from flexcage.study.outputs import StudyFigure
 from flexcage.study.plan import Plan, Planned
 from flexcage.study.spec import Study, value_at
@@ -216,8 +216,8 @@ class StudyRecord:
     def cautions(self) -> list[str]:
         """What to know before any of its figures: an edited study.toml, cases of different versions
         of flexcage."""
-        apart = told_apart(row.origin for row in self.rows if row.origin)
-        return list(filter(None, [self.about.edited, apart]))
+        note = origins_note(row.origin for row in self.rows if row.origin)
+        return list(filter(None, [self.about.edited, note]))
 
     def status(self) -> str:
         """How many cases are done, failed and open, in one line."""

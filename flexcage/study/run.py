@@ -14,15 +14,15 @@ from flexcage.core.hashing import content_hash
 from flexcage.core.progress import Silent
 from flexcage.core.stopping import check, unwinding
 from flexcage.run.cost import Cost
-from flexcage.run.foreseen import tell
+from flexcage.run.foreseen import report_foreseen
 from flexcage.study.cluster import connect, default_workers, require_packages
 from flexcage.study.folder import CaseRow, Failure, Folder
 from flexcage.study.origin import check_origins
 from flexcage.study.outputs import beyond_summary, lacking, needs_stress
 from flexcage.study.plan import Plan, Planned, make_plan
+from flexcage.study.progress import TOPIC, Board
 from flexcage.study.results import StudyResults
 from flexcage.study.spec import Study
-from flexcage.study.telling import TOPIC, Board
 from flexcage.study.work import Order, do_case, order_of, prepare
 
 log = logging.getLogger(__name__)
@@ -66,7 +66,7 @@ def run_study(
         todo = _lacking(plan, folder, retry=retry)
         try:
             if todo:
-                _tell_before(plan, folder, todo, (scheduler, workers))
+                _report_before(plan, folder, todo, (scheduler, workers))
                 with unwinding():  # Ctrl-C ends the workers
                     _compute(plan, folder, todo, (scheduler, workers), progress)
         except BaseException:  # Ctrl-C as well: the tables show what is finished
@@ -77,15 +77,17 @@ def run_study(
     return results
 
 
-def _tell_before(plan: Plan, folder: Folder, todo: set[str], where: tuple[Any, int | None]) -> None:
+def _report_before(
+    plan: Plan, folder: Folder, todo: set[str], where: tuple[Any, int | None]
+) -> None:
     """Log what is foreseen of the cases to compute, and what disk and time they will take."""
     cost = Cost(keeps=plan.study.keep == "runs")
     cases = (cost.counted(plan.case(planned)) for planned in plan.cases if planned.hash in todo)
-    tell(cases, stress=needs_stress(plan.study.outputs))
+    report_foreseen(cases, stress=needs_stress(plan.study.outputs))
     scheduler, workers = where
     if scheduler is None:
         crew = min(workers or default_workers(), len(todo))
-        cost.tell(folder.path, workers=crew, each=_seconds_each(plan, folder))
+        cost.announce(folder.path, workers=crew, each=_seconds_each(plan, folder))
 
 
 def _seconds_each(plan: Plan, folder: Folder) -> float | None:
@@ -109,7 +111,7 @@ def _compute(
             bar.begin_at(done)
             numbers = {c.hash: k for k, c in enumerate(plan.cases) if c.hash in todo}
             board = Board(bar, numbers, total, done)
-            client.subscribe_topic(TOPIC, board.told)
+            client.subscribe_topic(TOPIC, board.on_event)
             try:
                 for name in _Desk(client, plan, folder, board).work_off(todo):
                     board.finished(name)
@@ -173,13 +175,13 @@ class _Desk:
         # those that share modes one after the other, so that the cache need not hold them all
         cases = (planned for planned in self.plan.cases if planned.hash in todo)
         for planned in sorted(cases, key=lambda planned: planned.modes):
-            while out.count() + len(self._back) >= self._room():
+            while out.count() + len(self._back) >= self._window_size():
                 yield self._take(out)
             out.add(self._submit(planned))
         while out.count() or self._back:
             yield self._take(out)
 
-    def _room(self) -> int:
+    def _window_size(self) -> int:
         """How many cases may be out: a few for every thread that there is now."""
         if time.monotonic() - self._looked > _LOOK:
             try:

@@ -67,7 +67,7 @@ def samples_of(
     table = results.table
     table = table[(table["state"] == "done") & np.isfinite(table[results.titles[output]])]
     for name, value in (where or {}).items():
-        table = _selected(table, _known(name, names), name, value)
+        table = _selected(table, _title_of(name, names), name, value)
     if table.empty:
         raise InputError(f"No finished case of the study has a value of '{output}'.", where="study")
     titles = _chosen(table, names, axes)
@@ -82,7 +82,7 @@ def _path(title: str) -> str:
     return title.partition(" [")[0]
 
 
-def _known(name: str, names: Mapping[str, str]) -> str:
+def _title_of(name: str, names: Mapping[str, str]) -> str:
     if name not in names:
         raise InputError(
             f"The study does not vary '{name}'; {did_you_mean(name, list(names), 'it varies')}.",
@@ -117,7 +117,7 @@ def _chosen(table: Any, names: Mapping[str, str], axes: Sequence[str]) -> list[s
         if all(isinstance(v, (int, float, np.number)) and not isinstance(v, bool)
                for v in table[title])
     }  # fmt: skip
-    titles = [_known(path, names) for path in axes] or list(numbers.values())
+    titles = [_title_of(path, names) for path in axes] or list(numbers.values())
     for path in axes:
         if path not in numbers:
             what = "takes no numbers" if path in varied else "has one value only"

@@ -25,7 +25,7 @@ from flexcage.core.threads import on_one_core
 from flexcage.mesh.options import MeshOptions
 from flexcage.run import Run
 from flexcage.run.folder import was_written, write_case
-from flexcage.run.foreseen import told_at_once
+from flexcage.run.foreseen import reported_at_once
 from flexcage.simulate import load_run, simulate
 from flexcage.stages import cage_mesh, cage_reduction, keep_at_hand
 from flexcage.study.about import plain
@@ -33,7 +33,7 @@ from flexcage.study.folder import CaseRow, Failure, Folder
 from flexcage.study.origin import Origin, this_one
 from flexcage.study.outputs import beyond_summary, figures_of, lacking, late_figures, needs_stress
 from flexcage.study.plan import Plan, Planned
-from flexcage.study.telling import Told, teller
+from flexcage.study.progress import ReportedProgress, stage_reporter
 
 log = logging.getLogger(__name__)
 
@@ -78,7 +78,7 @@ def do_case(order: Order, *prepared: object) -> str:
     folder = Folder(order.folder)
     with filelock.FileLock(folder.lock(order.hash)):
         try:
-            with told_at_once(()):  # the study told it of all its cases
+            with reported_at_once(()):  # the study told it of all its cases
                 _complete(order, folder)
         except Exception as exc:
             folder.write_failure(order.hash, _failure(exc))
@@ -93,7 +93,7 @@ def prepare(order: Order) -> None:
 
     A failure here is left to the cases: it becomes their own.
     """
-    teller(order.hash)("mesh and modes", None)
+    stage_reporter(order.hash)("mesh and modes", None)
     try:
         case = _case_of(order)
         keep_at_hand(cage_reduction(case, cage_mesh(case)))
@@ -115,11 +115,11 @@ def _complete(order: Order, folder: Folder) -> None:
         folder.write_row(folder.case(order.hash), row)
         return
     case = _case_of(order)
-    tell = teller(order.hash)
-    tell("kernels", None)
+    report = stage_reporter(order.hash)
+    report("kernels", None)
     compile_kernels(case)
     part = folder.part(order.hash)
-    run = _march(case, part, order, partial(Told, tell))
+    run = _march(case, part, order, partial(ReportedProgress, report))
     keep_at_hand(run.cage)
     figures = figures_of(run, order.beyond)
     seconds = time.process_time() - begin

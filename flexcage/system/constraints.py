@@ -29,7 +29,7 @@ from numba import types
 
 from flexcage.bodies.floating_frame import BodyData
 from flexcage.core.errors import InputError
-from flexcage.core.jit import LEAN, kernel, kernel_of, why_not_compiled
+from flexcage.core.jit import WITHOUT_NRT, kernel, kernel_of, why_not_compiled
 from flexcage.core.kernel_values import KernelType
 from flexcage.core.registry import add, check_free
 from flexcage.core.vectors import RIGID, TURN, xyz
@@ -42,7 +42,7 @@ from flexcage.system.spec import Constraint
 
 N_PARAMETERS = 10
 OFF, VELOCITY, POSITION = 0, 1, 2  # levels; OFF while a start is brought to equilibrium
-PROJECT, BORNE = -1, -2  # what ``holding.hold`` may be asked for beside its rows
+PROJECT, BORNE = -1, -2  # what ``apply_constraints`` may be asked for beside its rows
 LEVELS = {"velocity": VELOCITY, "position": POSITION}
 UNITS = ("N", "N m")  # of multipliers
 _ALIKE = 1e-9  # of normalised constraints: below it they hold the same
@@ -371,4 +371,4 @@ def _joined(kinds: tuple[tuple[Any, int], ...]) -> Any:
         first(t, y, at, p[0], G[:m], g[:m], h[:m])
         rest(t, y, at, p[1:], G[m:], g[m:], h[m:])
 
-    return numba.njit(ALL_ROWS, **{**LEAN, "cache": False})(rows)
+    return numba.njit(ALL_ROWS, **{**WITHOUT_NRT, "cache": False})(rows)

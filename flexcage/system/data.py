@@ -53,7 +53,7 @@ EVENT_TIME, EVENT_ELEMENT, EVENT_PLACE, EVENT_CLOSED = range(4)  # in a row of `
 LANDS, OTHER_LAND = 4, 2  # lands of a cage at -x, +x on its guiding ring, then on the other one
 KINETIC, STRAIN, IN_CONTACTS, IN_MOUNT = range(4)  # places in ``Report.energy``
 # places in ``law`` behind those of ``contacts.evaluation``: the rows of further constraints, what
-# puts these in (``holding``), and the family's functions ``separate``
+# puts these in (``constraint_equations``), and the family's functions ``separate``
 CONSTRAINT_EQUATIONS, HOLD, FAMILY_PARTS = 10, 11, 12
 # rows of ``Scratch.vec``: of the cage in space; of the pair under work, in the roller's frame F; of
 # lands, forces and moments on the cage and on the ring that they meet

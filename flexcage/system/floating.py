@@ -1,4 +1,7 @@
-"""The cage: rows of a body in a floating frame, translations in space, rotations in the body."""
+"""The cage: rows of a body in a floating frame, translations in space, rotations in the body.
+
+The equations stand in ``bodies.floating_frame``.
+"""
 
 from __future__ import annotations
 
@@ -31,6 +34,7 @@ def cage_equations(y, yd, d, out, mode):
     acc, v, product = frame.w[0], frame.w[1], frame.w[2]
     M, H, h = frame.rigid, frame.coupled, frame.h
     inertia_terms(data, wb, qf, qfd, frame)
+    # kinematics: R' = v in space, the quaternion by w of the body, modes by their rates
     rate = work.S[0]
     quaternion_rate(quat, wb, rate)
     for c in range(3):
@@ -40,21 +44,22 @@ def cage_equations(y, yd, d, out, mode):
     for m in range(nm):
         r_q[FRAME + m] = qd[FRAME + m] - qfd[m]
     gb = turned_back(A, xyz(fields(d.bodies).gravity))
-    # gravity is an acceleration of the whole body
+    # (A^T (v' - g), w'): gravity is an acceleration of the whole body
     put(acc, minus(turned_back(A, xyz(ud)), gb))
     for c in range(3):
         acc[TURN + c] = ud[TURN + c]
-    for k in range(6):
+    for k in range(6):  # M (a, w') + H q'' + h, in the body's frame
         x = h[k]
         for c in range(6):
             x += M[k, c] * acc[c]
         for m in range(nm):
             x += H[k, m] * modes[m]
         v[k] = x
-    for c in range(3):
+    for c in range(3):  # forces to space, moments in the body; less those of contacts
         x = A[c, 0] * v[0] + A[c, 1] * v[1] + A[c, 2] * v[2]
         r_u[c] = x - border[b + c]
         r_u[TURN + c] = v[TURN + c] - border[b + TURN + c]
+    # modes: H^T (a, w') + m_ff q'' + h + K q + d q' - Q
     row_of = out[modes_at(at.cage_u + RIGID, nm)]
     for m in range(nm):
         row_of[m] = h[RIGID + m] - border[b + RIGID + m]

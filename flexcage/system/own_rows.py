@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.core.errors import InputError
-from flexcage.core.probing import check_reading, with_room
+from flexcage.core.probing import check_reading, zero_padded
 from flexcage.system.layout import Places
 
 _STEP = 1e-4  # of a velocity, or of 1 m/s and 1 rad/s, over which a difference is taken
@@ -27,7 +27,7 @@ def check_rows(kind: Any, name: str, given: np.ndarray, at: Places, y: np.ndarra
         return G, g, h
 
     check_reading(f"Constraint '{name}'", lambda p: rows(p, y), given, where=name)
-    p = with_room(given)
+    p = zero_padded(given)
     G, differences = rows(p, y)[0], np.zeros((m, at.border))
     for k in range(at.border):
         step = _STEP * max(abs(y[at.bodies_u + k]), 1.0)

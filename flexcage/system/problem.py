@@ -36,9 +36,9 @@ from flexcage.solve.bordered import Bordered, new_bordered
 from flexcage.solve.contract import Integrator
 from flexcage.solve.oscillators import Oscillators
 from flexcage.system import newton, rates, sampling
+from flexcage.system.constraint_equations import apply_constraints, no_constraints
 from flexcage.system.constraints import ALL_ROWS_TYPE, Constraints, constraints_of, units_of
 from flexcage.system.data import LANDS, POWERS, Memory, Report, Work, new_memory
-from flexcage.system.holding import hold, hold_nothing
 from flexcage.system.layout import RING, Layout, Places
 from flexcage.system.motion import Motion
 from flexcage.system.rates import RatesWork, modal_oscillators, new_rates_work
@@ -50,7 +50,7 @@ if TYPE_CHECKING:
 
 ITERATIONS = 40  # of the spectral radius
 NUDGE = 5e-12  # [m] over which it takes differences
-APART = 2e-6  # [s] at the least, between steps that are kept for the cage's stress
+LEAST_INTERVAL = 2e-6  # [s] at the least, between steps that are kept for the cage's stress
 _REAL, _COUNT = types.float64, types.int64
 _VECTOR, _MATRIX = types.Array(types.float64, 1, "C"), types.Array(types.float64, 2, "C")
 _NONE, _FLAG = types.void, types.boolean
@@ -154,13 +154,13 @@ def new_samples(n: int, stride: int, report: Report) -> SampleBuffers:
 def new_between(n: int, interval: float, modes: int, report: Report) -> BetweenSamples:
     """Room for the steps of a block of n samples, ``interval`` [s] apart, in which an element
     touches one face on average; none without modes."""
-    apart = min(APART, 0.1 * interval)
-    steps = n * ceil(interval / apart) if modes else 0
+    least = min(LEAST_INTERVAL, 0.1 * interval)
+    steps = n * ceil(interval / least) if modes else 0
     rows, z, small = steps * len(report.station), np.zeros, np.float32
     return BetweenSamples(
         z(steps), z((steps, modes)), z((steps, *report.land_station.shape), small),
         z(steps, np.int64), z((rows, 2), np.int64), z((rows, *report.station.shape[2:]), small),
-        z(2, np.int64), np.full(2, -np.inf), np.array([apart, interval]),
+        z(2, np.int64), np.full(2, -np.inf), np.array([least, interval]),
     )  # fmt: skip
 
 
@@ -220,12 +220,12 @@ class BearingSystem:
             layout.places,
         )  # fmt: skip
         bearing = numba.typeof(parts(motion.parts, self.data))
-        holding = _evaluation(bearing, ALL_ROWS_TYPE)
-        holds = compiled(hold if constraints else hold_nothing, holding)
-        self.laws = (*law_functions(contacts), rows, holds)
+        signature = _evaluation(bearing, ALL_ROWS_TYPE)
+        enforcing = compiled(apply_constraints if constraints else no_constraints, signature)
+        self.laws = (*law_functions(contacts), rows, enforcing)
         own_laws = (
             *(laws.NORMAL_TYPE,) * 5, *(laws.FRICTION_TYPE,) * 5, ALL_ROWS_TYPE,
-            KernelType(holding),
+            KernelType(signature),
         )  # fmt: skip
         self._separate_signature = _evaluation(bearing, types.Tuple(own_laws))
         separate = (KernelType(self._separate_signature),) * len(self.motion.separate)

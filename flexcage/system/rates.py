@@ -73,10 +73,10 @@ def modal_oscillators(body: BodyData, layout: Layout) -> Oscillators:
     mass = np.diag(body.mff)
     decay = 0.5 * np.diag(body.dff) / mass
     squared = np.diag(body.kff) / mass - decay**2
-    swings = np.flatnonzero(squared > 0.0)
+    oscillating = np.flatnonzero(squared > 0.0)
     at = np.arange(layout.size)
-    place = np.stack([layout.q(at)["modes"][swings], layout.u(at)["modes"][swings]])
-    return Oscillators(place, decay[swings], np.sqrt(squared[swings]))
+    place = np.stack([layout.q(at)["modes"][oscillating], layout.u(at)["modes"][oscillating]])
+    return Oscillators(place, decay[oscillating], np.sqrt(squared[oscillating]))
 
 
 def rates(t, y, yd, data, power):

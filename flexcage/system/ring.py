@@ -122,10 +122,11 @@ def ring_rows(body, ring, yd, push, gravity, given, rates, rows):
     mass, Ia, It = body.inertia[MASS], body.inertia[AXIAL], body.inertia[TRANSVERSE]
     cx, sx, ce, se = cos(q[Q_SKEW]), sin(q[Q_SKEW]), cos(q[Q_TILT]), sin(q[Q_TILT])
     Mx, My, Mz = push[TURN], push[TURN + 1] + given[0], push[TURN + 2] + given[1]
+    # moments about the axes of the ring's frame, which skew and tilt turn, and no spin
     M1 = cx * ce * Mx + se * My - sx * ce * Mz
     M2 = -cx * se * Mx + ce * My + sx * se * Mz
     M3 = sx * Mx + cx * Mz
-    for c in range(3):
+    for c in range(3):  # translations in space, then the module's three of rotation
         r_u[c] = mass * (ud[c] - gravity[c]) - push[c]
     spin, skew, tilt = turn_of(u)
     r_u[U_SPIN] = Ia * ud[U_SPIN] - M1
@@ -166,7 +167,7 @@ def ring_springs(body, q, u, pull):
         q[Q_TILT] - rest[U_TILT],
     )  # fmt: skip
     stored = lost = 0.0
-    for i in range(RIGID):
+    for i in range(RIGID):  # -K (q - rest) - C u, and an energy of the first
         force = damped = 0.0
         for k in range(RIGID):
             force += body.stiffness[i, k] * away[k]
@@ -199,7 +200,7 @@ def _in_bore(body, q, u, b, held, tan, sloped):
     n = (1.0, 0.0) if distance == 0.0 else (y / distance, z / distance)
     depth = distance - body.bore[CLEARANCE]
     rate = n[0] * u[1] + n[1] * u[2]
-    force = k * depth + c * rate
+    force = k * depth + c * rate  # towards the middle, and no tension
     if depth <= 0.0:
         return 0.0, 0.0
     if force <= 0.0:  # it parts while still compressed: what is stored relaxes unseen

@@ -21,9 +21,9 @@ import scipy.sparse as sp
 from flexcage.core.errors import FlexcageError, InputError
 from flexcage.core.units import describe
 from flexcage.fem.linear import available_kinds, linear_solver
-from flexcage.modes.door.body import ReducedBody, rigid_motions
-from flexcage.modes.door.formats import read_body
-from flexcage.modes.door.systems import SYSTEMS, nearest_system
+from flexcage.modes.exchange.body import ReducedBody, rigid_motions
+from flexcage.modes.exchange.formats import read_body
+from flexcage.modes.exchange.systems import SYSTEMS, nearest_system
 from flexcage.system.spec import Mount
 
 WHERE = "mount.body"
@@ -54,7 +54,7 @@ def seat_compliance(mount: Mount, *, diameter: float, width: float) -> np.ndarra
     return 0.5 * (whole + whole.T)[np.ix_(_FIVE, _FIVE)]
 
 
-def odd_seat(compliance: np.ndarray, mount: Mount, *, modulus: float, width: float) -> str:
+def implausible_seat(compliance: np.ndarray, mount: Mount, *, modulus: float, width: float) -> str:
     """A sentence on a seat of ``mount.body`` that is far softer or stiffer across the axis than a
     solid of this modulus [Pa] as wide as the bearing, E B; "" for a usual one."""
     stiffness = 2.0 / float(compliance[1, 1] + compliance[2, 2])

@@ -143,8 +143,8 @@ class Load(Wave):
         if self.varies == "axial":
             values = list(self.values) or [self.axial]
             values += [] if self.ramp_to is None else [self.ramp_to]
-        swing = abs(self.wave_amplitude) * (self.wave != "none" and self.wave_of == "axial")
-        return min(values) - swing, max(values) + swing
+        fluctuation = abs(self.wave_amplitude) * (self.wave != "none" and self.wave_of == "axial")
+        return min(values) - fluctuation, max(values) + fluctuation
 
     def frees_axially(self, bearing: Bearing) -> bool:
         """Is the inner ring free along the axis in a run: by a spring of the shaft, or by elements

@@ -87,18 +87,18 @@ def constrained(
     return replace(start, y=y, yd=yd)
 
 
-def made_room(land: LandData, layout: Layout, y: np.ndarray) -> bool:
+def clear_of_land(land: LandData, layout: Layout, y: np.ndarray) -> bool:
     """Whether the cage's land was in the way of the ring that it rides on; it is moved off it,
     and rolling elements stay in the middle of their pockets."""
     q = layout.q(y)
     if land.kind == NONE:
         return False
     ring = q["inner" if land.inner else "outer"][1:3]
-    apart = q["cage"][1:3] - ring
-    share = _CLEAR[land.kind] * land.clearance / max(float(np.linalg.norm(apart)), 1e-12)
+    offset = q["cage"][1:3] - ring
+    share = _CLEAR[land.kind] * land.clearance / max(float(np.linalg.norm(offset)), 1e-12)
     if share >= 1.0:
         return False
-    moved = (share - 1.0) * apart
+    moved = (share - 1.0) * offset
     q["cage"][1:3] += moved
     radius, psi = q["elements"][:, 1], q["elements"][:, 2].copy()
     q["elements"][:, 2] += (moved[1] * np.cos(psi) - moved[0] * np.sin(psi)) / radius

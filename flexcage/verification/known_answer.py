@@ -32,10 +32,10 @@ class Row:
     @property
     def difference(self) -> float:
         """Value less reference, over the reference's size unless the tolerance is absolute."""
-        apart = float(self.value - self.reference)
+        difference = float(self.value - self.reference)
         if self.tolerance.absolute:
-            return apart
-        return apart / abs(self.reference) if self.reference else float("nan")
+            return difference
+        return difference / abs(self.reference) if self.reference else float("nan")
 
     @property
     def passed(self) -> bool:

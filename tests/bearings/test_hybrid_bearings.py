@@ -13,7 +13,7 @@ import flexcage
 from flexcage import solve_static, stages
 from flexcage.bearings.ball.model import pocket_contact
 from flexcage.case.description import grounds, in_words
-from flexcage.case.odd_values import odd_values
+from flexcage.case.plausibility import implausible_values
 from flexcage.case.unread import not_used
 from flexcage.geometry.film import Oil
 from flexcage.geometry.materials import MATERIALS
@@ -180,14 +180,14 @@ def test_words_sources_and_warnings_name_the_elements():
     case = HYBRID["c7010"]
     assert "18 balls of 9.525 mm of Si3N4" in in_words(case)[0].replace("\N{NO-BREAK SPACE}", " ")
     assert "SKF" in grounds(case)["Si3N4"] and "GCr15" in grounds(case)
-    ((key, text),) = odd_values(case)
+    ((key, text),) = implausible_values(case)
     assert key == "other_steel" and text.startswith("Ratings are those of steel balls")
     assert "ISO 20056-2" in text
-    assert not list(odd_values(CASES["c7010"]))
+    assert not list(implausible_values(CASES["c7010"]))
     lost = case.replace("bearing.element_material.proof_stress", 1e9)
     assert "bearing.element_material.proof_stress (" in next(not_used(lost))
     odd = case.replace("bearing.element_material.density", 3.2)
-    assert any("is 3200 kg/m^3 meant?" in text for _, text in odd_values(odd))
+    assert any("is 3200 kg/m^3 meant?" in text for _, text in implausible_values(odd))
 
 
 @pytest.mark.parametrize(

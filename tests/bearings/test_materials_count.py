@@ -16,9 +16,9 @@ CASES = {
 }
 #: Parts of a model that know the elastic constants of rings and elements, and of the cage.
 ELASTIC = {
-    "n1013": {"inner", "outer", "rib", "beside", "pocket", "land"},
-    "nu210": {"inner", "outer", "outer_rib", "beside", "pocket", "land"},
-    "c7010": {"inner", "outer", "beside", "pocket", "land"},
+    "n1013": {"inner", "outer", "rib", "neighbours", "pocket", "land"},
+    "nu210": {"inner", "outer", "outer_rib", "neighbours", "pocket", "land"},
+    "c7010": {"inner", "outer", "neighbours", "pocket", "land"},
 }
 FACTOR = {"youngs_modulus": 1.5, "poisson_ratio": 0.8, "density": 1.3}
 

@@ -16,7 +16,7 @@ from numba import types
 from numba.extending import intrinsic
 from numba.np.arrayobj import populate_array
 
-from flexcage.core.jit import LEAN
+from flexcage.core.jit import WITHOUT_NRT
 from flexcage.system.data import POWERS
 from flexcage.system.problem import BearingSystem
 
@@ -159,7 +159,7 @@ def _store(kind: types.Type) -> Any:
         _put(address, value)
         return True
 
-    compiled = numba.njit(types.boolean(types.intp, kind), **{**LEAN, "cache": False})(store)
+    compiled = numba.njit(types.boolean(types.intp, kind), **{**WITHOUT_NRT, "cache": False})(store)
 
     def checked(address: int, value: Any) -> None:
         if not compiled(address, value):

@@ -100,9 +100,9 @@ def test_claws_over_a_shoulder_that_is_not_given(values, sentence):
 
 def test_the_proposal_is_possible_in_all_bearings_of_a_series():
     """Those of 60, 62 and 63 whose insides are inferred, small and large."""
-    from flexcage.bearings.ball.inside import candidates
+    from flexcage.bearings.ball.inference import candidates
     from flexcage.case.catalogue import find
-    from flexcage.geometry.inside import ranked
+    from flexcage.geometry.inference import ranked
 
     for name in ("6000", "6005", "6010", "6201", "6205", "6212", "6302", "6308"):
         bearing = ranked(candidates(find(name).outline))[0].bearing

@@ -112,9 +112,9 @@ def test_a_neck_of_a_hair_is_refused():
     around = SimpleNamespace(
         pitch_diameter=85.33960331304474e-3, element_count=12, element_diameter=0.0, element="ball"
     )
-    (key, sentence), = cage.no_room(around)  # fmt: skip
+    (key, sentence), = cage.obstructions(around)  # fmt: skip
     assert key == "width" and "cut the sheet through, or nearly" in sentence
-    assert not list(replace(cage, width=10.9e-3).no_room(around))
+    assert not list(replace(cage, width=10.9e-3).obstructions(around))
 
 
 @pytest.mark.parametrize(

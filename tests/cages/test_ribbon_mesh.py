@@ -175,7 +175,7 @@ def test_closed_cages_of_any_dimensions_mesh():
         around = SimpleNamespace(
             pitch_diameter=pitch * MM, element_count=count, element_diameter=0.0, element="ball"
         )
-        if any(cage.impossible(count)) or any(cage.no_room(around)):
+        if any(cage.impossible(count)) or any(cage.obstructions(around)):
             continue
         mesh = build_cage_mesh(
             cage, pocket_count=count, pitch_diameter=pitch * MM, defects=(),

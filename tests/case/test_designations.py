@@ -43,6 +43,8 @@ def written(designation, **options):
         ("6805ZZ", ("61805", ("ZZ",))),
         ("NJ2308-VH", ("NJG2308", ("VH",))),
         ("NJ2308 EC", ("NJ2308", ("EC",))),
+        ("62/22-2RS1", ("62/22", ("2RS1",))),  # 22 mm; 6222 has 110 mm
+        ("NU 210/C3", ("NU210", ("C3",))),
     ],
 )
 def test_parts_of_a_designation(designation, parts):
@@ -123,6 +125,39 @@ def test_what_is_not_known_is_named_as_left_out():
         catalogue.find("6205QX")
 
 
+@pytest.mark.parametrize(
+    ("designation", "marks", "unknown"),
+    [
+        ("6205-2RS1/C3VT143", ("2RS1", "C3"), ("VT143",)),  # a grease: not V, without a cage
+        ("6205 C6", (), ("C6",)),
+        ("6205-2RSTN9XY", (), ("2RSTN9XY",)),
+        ("6205-2RS T1X", ("2RS",), ("T1X",)),
+    ],
+)
+def test_a_mark_is_not_taken_out_of_another(designation, marks, unknown):
+    found = read(designation)
+    assert (found.marks, found.unknown) == (marks, unknown)
+
+
+def test_a_bore_behind_a_stroke_is_in_millimetres():
+    assert 1e3 * catalogue.known("62/22")["bore"] == pytest.approx(22.0)
+    for text in ("618/8", "60/500", "62/222"):
+        with pytest.raises(InputError, match="is not in the catalogue"):
+            catalogue.find(text)
+
+
+def test_two_bearings_are_refused():
+    with pytest.raises(InputError, match="'6205, 6206' names two bearings; give one"):
+        catalogue.find("6205, 6206")
+
+
+@pytest.mark.parametrize("name", ["NJ2310", "NU 2210 ECP", "6216"])
+def test_a_preset_that_a_catalogue_knows_by_dimensions_is_answered_so(name):
+    with pytest.raises(InputError) as caught:
+        load_case({"bearing": {"preset": name}})
+    assert f"'flexcage new {name}' writes such a case, from your maker's" in str(caught.value)
+
+
 def test_stainless_steel_is_named():
     for name in ("W 6205-2RS1", "S6205-2RSR", "SS6205"):
         made, _ = written(name)
@@ -132,6 +167,7 @@ def test_stainless_steel_is_named():
 @pytest.mark.parametrize(
     ("name", "kind"),
     [("3206-2RS", "a double row angular contact ball bearing"), ("32006", "a tapered roller"),
+     ("RNU 210", "a cylindrical roller bearing without an inner ring"),
      ("LM11949", "a tapered roller bearing in inches"), ("7208 BDU", "a set of bearings (DU)"),
      ("7010 CD/P4ADGA", "a set of bearings (DG)")],
 )  # fmt: skip

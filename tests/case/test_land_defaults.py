@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from flexcage.case import load_case
-from flexcage.case.checks import land_beside_shoulder
+from flexcage.case.checks import land_clearance_mismatch
 from flexcage.core.errors import InputError
 
 N1013 = {"bearing": {"preset": "N1013"}, "load": {"radial": "1000 N"}}
@@ -97,7 +97,7 @@ def test_a_ball_bearings_land_lies_on_the_shoulder():
     case = load_case(DEEP)
     assert case.land.clearance == pytest.approx(0.5 * (44.178e-3 - 43.4e-3))
     assert case.land.width == pytest.approx(0.9 * (6.5e-3 - 4.1e-3), rel=0.02)
-    assert not list(land_beside_shoulder(case))
+    assert not list(land_clearance_mismatch(case))
     closer = case.replace("cage.outside_diameter", "44 mm")
     assert closer.land.clearance == pytest.approx(89e-6)
 
@@ -142,7 +142,7 @@ def test_a_cage_that_cuts_the_shoulder_is_refused_as_are_lands_beyond_the_rim():
 
 def test_a_stated_clearance_beside_the_shoulders_is_told():
     case = load_case(DEEP).replace("contacts.land.clearance", "0.25 mm")
-    (told,) = land_beside_shoulder(case)
+    (told,) = land_clearance_mismatch(case)
     assert "0.25 mm, where cage.outside_diameter and bearing.outer_shoulder leave 0.389 mm" in told
 
 

@@ -8,13 +8,13 @@ from math import cos
 import pytest
 from scipy.optimize import brentq
 
-from flexcage.bearings.ball.inside import filling_angle
+from flexcage.bearings.ball.inference import filling_angle
 from flexcage.bearings.ball.ratings import static_factor
 from flexcage.case import catalogue, load_case
 from flexcage.case.new import new_case
 from flexcage.cli import main
 from flexcage.core.errors import InputError
-from flexcage.geometry.inside import Outline
+from flexcage.geometry.inference import Outline
 from flexcage.geometry.other_kinds import kind_of
 from flexcage.simulate import simulate
 
@@ -265,7 +265,9 @@ def test_what_the_catalogue_has_not_gets_a_sentence(designation, sentence):
 def test_ratings_that_no_inside_can_give_get_a_sentence():
     own = catalogue.find("6205").outline
     for changes in ({"dynamic_rating": 30e3}, {"static_rating": 1e3}, {"static_rating": 90e3}):
-        with pytest.raises(InputError, match="No inside of these dimensions gives C0r = "):
+        with pytest.raises(
+            InputError, match="No internal geometry of these dimensions gives C0r = "
+        ):
             new_case(Outline(**(vars(own) | changes)), "given")
     with pytest.raises(InputError, match="No rolling elements have room"):
         new_case(Outline(**(vars(own) | {"bore": 51e-3})), "given")

@@ -27,7 +27,7 @@ class FakeRun:
     def __init__(self):
         self.drawn, self.stages, self.told, self.look = [], Stages(), [], {}
 
-    def tell_times(self):
+    def report_times(self):
         self.told.append(self.stages.total)
 
     def draw(self, folder, *, animate=False, **look):

@@ -12,7 +12,7 @@ from flexcage import cli
 from flexcage.case import load_case
 from flexcage.case.description import in_words
 from flexcage.core.errors import InputError
-from flexcage.modes.door import read_body
+from flexcage.modes.exchange import read_body
 from flexcage.simulate import simulate
 from flexcage.stages import cage_mesh
 from flexcage.study.converge import levels

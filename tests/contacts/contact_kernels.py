@@ -20,7 +20,7 @@ from flexcage.contacts.pocket_wall import (
     RollerInPocket,
     pocket_work,
 )
-from flexcage.contacts.race import meet_race, press_race, push_by_race, race_work
+from flexcage.contacts.race import race_forces, race_penetrations, race_work, race_wrench
 from flexcage.contacts.rib import rib_contact
 from flexcage.contacts.slices import Laws, new_slices
 from flexcage.contacts.state import CageModes, RollerPose, new_pair, new_pose
@@ -50,10 +50,10 @@ def turned(axis, rotation):
 
 
 def _race(pose, side, Rw, theta, onset, law, mu, rw, pair, mode, sums):
-    if not meet_race(1, pose, side, Rw, theta, onset, rw):
+    if not race_penetrations(1, pose, side, Rw, theta, onset, rw):
         return False
-    press_race(2, side, Laws(law, mu), rw)
-    push_by_race(1, pose, side, Rw, theta, rw, pair, mode, sums)
+    race_forces(2, side, Laws(law, mu), rw)
+    race_wrench(1, pose, side, Rw, theta, rw, pair, mode, sums)
     return True
 
 

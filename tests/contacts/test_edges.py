@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from flexcage.contacts.uneven import spread, sunk_at
+from flexcage.contacts.uneven import spall_depth, spread
 from flexcage.core.jit import kernel
 
 MIDDLE, RADIUS, EFFECTIVE = 0.4, 40e-3, 4e-3  # rad, m, m
@@ -15,7 +15,7 @@ BEND = RADIUS**2 / (2.0 * EFFECTIVE)
 
 @kernel
 def sunk(spall, phi, out):
-    out[0], out[1] = sunk_at(spall, phi)
+    out[0], out[1] = spall_depth(spall, phi)
 
 
 def found(spall, phi):

@@ -197,8 +197,8 @@ def test_a_line_contact_of_any_material_yields_as_palmgren_has_it(modulus, ratio
 def test_the_most_slices_that_a_case_may_ask_for_fit_the_buffers():
     from dataclasses import fields
 
-    from flexcage.contacts.slices import ROOM
+    from flexcage.contacts.slices import CAPACITY
     from flexcage.contacts.spec import PairSpec
 
     (slices,) = (f for f in fields(PairSpec) if f.name == "slices")
-    assert slices.metadata["maximum"] <= ROOM
+    assert slices.metadata["maximum"] <= CAPACITY

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from flexcage.core import arrays as door
+from flexcage.core import arrays as arrays
 from flexcage.core.arrays import read_arrays, sparse_matrix
 from flexcage.core.errors import InputError
-from flexcage.modes.door.formats import read_body
+from flexcage.modes.exchange.formats import read_body
 from flexcage.modes.storage import interface_from
 
 WHOLE = sp.csr_matrix(np.diag([2.0, 3.0, 4.0]) + 0.1)
@@ -123,7 +123,7 @@ def test_sizes_are_known_before_memory_is_taken(monkeypatch):
             read_arrays(io.BytesIO(member(head(shape) + bytes(16))))
     bomb = io.BytesIO(member(head((2_000_000,)) + bytes(16_000_000)))
     assert len(bomb.getvalue()) < 50_000 and read_arrays(bomb)["K"].shape == (2_000_000,)
-    monkeypatch.setattr(door, "free_memory", lambda: 10e6)
+    monkeypatch.setattr(arrays, "free_memory", lambda: 10e6)
     with pytest.raises(ValueError, match="its arrays take 16 MB, and 10 MB are free"):
         read_arrays(bomb)
 

@@ -138,7 +138,7 @@ def test_clear_frees_what_info_counts():
 def test_a_limit_that_is_none_is_told_and_four_gigabytes_hold(monkeypatch, caplog, text):
     from flexcage.core import cache
 
-    monkeypatch.setattr(cache, "_told", set())
+    monkeypatch.setattr(cache, "_reported", set())
     monkeypatch.setenv("FLEXCAGE_CACHE_LIMIT_GB", text)
     assert cache.cache_limit() == cache.cache_limit() == 4_000_000_000
     assert caplog.text.count(f"FLEXCAGE_CACHE_LIMIT_GB is '{text}', but should be a number") == 1

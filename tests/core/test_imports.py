@@ -52,24 +52,32 @@ def test_a_case_needs_no_heavy_module():
     assert not heavy & set(done.stdout.split())
 
 
-DOORS = ["flexcage", "flexcage.spec", "flexcage.study", "flexcage.register", "flexcage.render"]
+PUBLIC_MODULES = [
+    "flexcage",
+    "flexcage.spec",
+    "flexcage.study",
+    "flexcage.register",
+    "flexcage.render",
+]
 
 
-@pytest.mark.parametrize("door", DOORS)
-def test_every_name_is_there(door):
-    module = importlib.import_module(door)
+@pytest.mark.parametrize("public_module", PUBLIC_MODULES)
+def test_every_name_is_there(public_module):
+    module = importlib.import_module(public_module)
     assert module.__all__ == dir(module)
     for name in module.__all__:
         assert getattr(module, name) is not None
-    with pytest.raises(AttributeError, match=f"module '{door}' has no attribute 'nothing'"):
+    with pytest.raises(
+        AttributeError, match=f"module '{public_module}' has no attribute 'nothing'"
+    ):
         _ = module.nothing
 
 
-@pytest.mark.parametrize("door", DOORS)
-def test_a_stub_gives_type_checkers_what_a_door_gives_python(door):
+@pytest.mark.parametrize("public_module", PUBLIC_MODULES)
+def test_a_stub_gives_type_checkers_what_a_module_gives_python(public_module):
     """A stub exports names that it imports "as" themselves or by "*", or those of its
     ``__all__``."""
-    stub = Path(importlib.import_module(door).__file__).with_suffix(".pyi")
+    stub = Path(importlib.import_module(public_module).__file__).with_suffix(".pyi")
     body = ast.parse(stub.read_text("utf-8")).body
     lines = [(node.module, a) for node in body if isinstance(node, ast.ImportFrom)
              for a in node.names]  # fmt: skip
@@ -79,20 +87,20 @@ def test_a_stub_gives_type_checkers_what_a_door_gives_python(door):
     for node in body:
         if isinstance(node, ast.Assign):
             exported += ast.literal_eval(node.value)
-    assert sorted(exported) == importlib.import_module(door).__all__
+    assert sorted(exported) == importlib.import_module(public_module).__all__
 
 
 def test_a_misspelt_name_is_answered_with_the_nearest():
-    for door, name, where in (
+    for public_module, name, where in (
         (flexcage, "simulat", "flexcage.simulate"),
         (flexcage, "Drvie", "flexcage.spec.Drive"),
         (spec, "Drvie", "flexcage.spec.Drive"),
     ):
         with pytest.raises(AttributeError, match=rf"'{name}'; did you mean {where}\?"):
-            getattr(door, name)
+            getattr(public_module, name)
 
 
-def test_the_door_shows_few_names():
+def test_the_package_shows_few_names():
     assert len(dir(flexcage)) <= 35
     assert {"simulate", "Case", "Run", "InputError", "spec", "register"} <= set(dir(flexcage))
 

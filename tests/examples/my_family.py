@@ -10,8 +10,8 @@ from flexcage.bearings.ball import FAMILY as BALLS
 from flexcage.bearings.ball.deep_groove import DeepGrooveBallBearing
 from flexcage.bearings.ball.model import SpottedBalls
 from flexcage.bodies.floating_frame import BodyData
+from flexcage.contacts.ball_ball import BallBallContact
 from flexcage.contacts.ball_pocket import BallPockets
-from flexcage.contacts.beside import BallsBeside
 from flexcage.contacts.evaluation import REPORT
 from flexcage.contacts.groove import Groove
 from flexcage.contacts.land import LandData
@@ -47,7 +47,7 @@ class MagnetModel(NamedTuple):
     inner: Groove
     outer: Groove
     pocket: BallPockets
-    beside: BallsBeside
+    neighbours: BallBallContact
     spot: SpottedBalls
     land: LandData
     magnet: Magnet

@@ -6,7 +6,7 @@ import numpy as np
 
 from flexcage.fem.contact import ContactProblem, Touching
 from flexcage.fem.curved import curved_stiffness, face_points
-from flexcage.fem.parting import Parted
+from flexcage.fem.separation import SeparationModel
 from flexcage.geometry.materials import MATERIALS
 from flexcage.mesh.revolved import HalfPlane, RevolvedBodies, revolved
 
@@ -67,7 +67,7 @@ def problem(bodies: RevolvedBodies, friction: float, held: np.ndarray, penalty=1
     pair = Touching("fit", faces, bodies.faces["fit", 1], bodies.behind(0, faces), friction)
     K = curved_stiffness(bodies.nodes, bodies.tets, STEEL)
     surfaces = [(faces, bodies.faces["fit", 1])]
-    parted = Parted(K, bodies.nodes, bodies.tets, surfaces, held, springs=springs)
+    parted = SeparationModel(K, bodies.nodes, bodies.tets, surfaces, held, springs=springs)
     return ContactProblem(parted, [pair], penalty=penalty)
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from flexcage.core.errors import InputError
 from flexcage.mesh.io import read_mesh
-from flexcage.modes.door.nodes import read_points
+from flexcage.modes.exchange.nodes import read_points
 
 pytest.importorskip("mapdl_archive")
 

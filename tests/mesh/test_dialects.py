@@ -95,7 +95,7 @@ def test_vtu(tmp_path, seed):
 @pytest.mark.parametrize("seed", SEEDS)
 def test_nastran_grids(tmp_path, seed):
     pytest.importorskip("pyyeti")
-    from flexcage.modes.door.nodes import read_points
+    from flexcage.modes.exchange.nodes import read_points
 
     rng = np.random.default_rng(seed)
     mesh = dialects.small(rng)

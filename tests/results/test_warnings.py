@@ -10,7 +10,7 @@ import xarray as xr
 from flexcage.case.presets import load_preset
 from flexcage.contacts.spec import LandSpec
 from flexcage.core.warning import RunWarning
-from flexcage.geometry.odd import odd_geometry
+from flexcage.geometry.plausibility import implausible_geometry
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.basis import BodyFit
 from flexcage.results.edges import Edge
@@ -262,14 +262,16 @@ def test_what_does_not_warn_at_the_start():
 )  # fmt: skip
 def test_geometry_that_is_legal_and_odd(preset, changes, words):
     cage = replace(preset.cage, **changes)
-    texts = [w.text for w in odd_geometry(preset.bearing, cage)]
+    texts = [w.text for w in implausible_geometry(preset.bearing, cage)]
     assert any(words in text for text in texts), texts
-    assert list(odd_geometry(preset.bearing, preset.cage)) == []
+    assert list(implausible_geometry(preset.bearing, preset.cage)) == []
 
 
 def test_pockets_that_guide_nothing():
     cage = replace(RIBBON.cage, pocket_diameter=9e-3)
-    assert any("they hardly guide them" in w.text for w in odd_geometry(RIBBON.bearing, cage))
+    assert any(
+        "they hardly guide them" in w.text for w in implausible_geometry(RIBBON.bearing, cage)
+    )
 
 
 def test_warnings_are_kept_with_the_figures(tmp_path):

@@ -45,7 +45,7 @@ def tell(*cases, folder=None, **how):
     found = Cost()
     for case in cases:
         found.counted(case)
-    found.tell(folder, **how)
+    found.announce(folder, **how)
 
 
 def test_a_kind_of_run_is_known_by_the_last_of_it():

@@ -197,7 +197,7 @@ def test_a_run_whose_folder_is_removed_says_so(tmp_path, capsys, monkeypatch):
 def test_a_run_whose_folder_is_removed_at_its_end_says_so(whole):
     run = load_run(whole)
     shutil.rmtree(whole)
-    for what in (run.tell_times, lambda: run.draw(whole / "images")):
+    for what in (run.report_times, lambda: run.draw(whole / "images")):
         with pytest.raises(RunFailed, match="was moved or removed"):
             what()
     assert not whole.exists()

@@ -9,7 +9,7 @@ from simulate_cases import bent, n1013
 
 from flexcage import load_run, simulate
 from flexcage.case import Case
-from flexcage.run.foreseen import foreseen, tell, told_before
+from flexcage.run.foreseen import foreseen, report_before, report_foreseen
 from flexcage.run.pictures import account_of
 from flexcage.study import compare, converge
 from flexcage.study import run as study_run
@@ -81,7 +81,7 @@ def test_a_mesh_for_motion_whose_stress_is_read():
 
 def test_many_cases_are_told_of_once_a_kind(caplog):
     fast = {"drive.speed": "90000 rpm"}
-    tell([rolling(), rolling(STEADY), rolling(STEADY, fast), rolling(fast)])
+    report_foreseen([rolling(), rolling(STEADY), rolling(STEADY, fast), rolling(fast)])
     short, speed = caplog.messages
     assert short.startswith("The run is short") and short.endswith(
         "is enough. (1 of 4 cases; this is the first of them)"
@@ -92,7 +92,7 @@ def test_many_cases_are_told_of_once_a_kind(caplog):
 def test_all_of_a_kind_is_told_of_the_first_case(caplog):
     late = {"load.ramp_to": "2 kN", "load.ramp_start": "1 s", "load.ramp_time": "5 ms"}
     later = {"drive.ramp_to": "9000 rpm", "drive.ramp_start": "2 s", "drive.ramp_time": "5 ms"}
-    tell([rolling(), rolling(late, later)])
+    report_foreseen([rolling(), rolling(late, later)])
     assert [text[:17] for text in caplog.messages] == ["drive.ramp_start ", "load.ramp_start i"]
     assert all("(1 of 2 cases;" in text for text in caplog.messages)
 
@@ -135,14 +135,14 @@ def counts(messages):
 
 
 def test_a_comparison_says_it_once(tmp_path, caplog, monkeypatch):
-    monkeypatch.setattr(compare, "simulate", lambda case, **_: told_before(case, stress=True))
+    monkeypatch.setattr(compare, "simulate", lambda case, **_: report_before(case, stress=True))
     monkeypatch.setattr(compare, "compare_runs", lambda runs, out: " ".join(runs))
     assert compare.compare_case(n1013(STEADY), out=tmp_path) == "rigid flexible"
     assert counts(caplog.messages) == list(zip(ONCE, ["2 of 2", "1 of 2"]))
 
 
 def test_a_convergence_study_says_it_once(tmp_path, caplog, monkeypatch):
-    monkeypatch.setattr(converge, "run_in", lambda _, case, **__: told_before(case, stress=True))
+    monkeypatch.setattr(converge, "run_in", lambda _, case, **__: report_before(case, stress=True))
     monkeypatch.setattr(converge, "_figures_of", lambda case, *_: converge.run_in("", case))
 
     class Stopped(Exception):

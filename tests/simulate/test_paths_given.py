@@ -10,7 +10,7 @@ import flexcage
 from flexcage.core.errors import InputError
 from flexcage.mesh.io import read_mesh, write_mesh
 from flexcage.mesh.series import new_folder
-from flexcage.modes.door.formats import read_body, write_body
+from flexcage.modes.exchange.formats import read_body, write_body
 from flexcage.report.page import write_page
 from flexcage.results import export
 from flexcage.results.row import SummaryRow

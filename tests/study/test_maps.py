@@ -15,6 +15,7 @@ from flexcage.study.map_report import map_text, write_map
 from flexcage.study.maps import Map, MapResults, load_map, run_map
 from flexcage.study.outputs import check_outputs, never_negative
 from flexcage.study.own import register_outputs
+from flexcage.study.plan import make_plan
 from flexcage.study.results import StudyResults
 from flexcage.study.unknowns import Unknown
 
@@ -73,6 +74,23 @@ def test_a_map_runs_every_point_under_every_condition_with_starts_of_its_own(don
     assert (results.values("my_samples", "slow") == 10).all()
     assert results.table.shape == (8, 3 + 2 + 3)
     assert results.seconds > 0.0 and 0.0 <= results.noise("my_last_cage_place", "fast")
+
+
+def test_an_unknown_may_be_how_hard_the_cage_is_pushed(tmp_path):
+    """Its pushes take the place of the map's; starts still differ in direction."""
+    push = """
+[[unknowns]]
+name = "push"
+path = "start.push"
+range = ["10 mm/s", "1000 mm/s"]
+scale = "log"
+reason = "a test"
+"""
+    spec = load_map(written(tmp_path, MAP + push))
+    cases = [make_plan(spec.study()).case(found) for found in make_plan(spec.study()).cases]
+    pushes = sorted({c.start.push for c in cases})
+    np.testing.assert_allclose(pushes, np.sort(0.01 * 100.0 ** spec.shares[:, 2]), rtol=1e-5)
+    assert len({c.start.seed for c in cases}) == 4
 
 
 def test_a_map_that_grows_computes_only_what_is_new(done):

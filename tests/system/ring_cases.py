@@ -3,8 +3,8 @@
 import numpy as np
 
 from flexcage.case import Case
-from flexcage.modes.door.body import ReducedBody
-from flexcage.modes.door.formats import write_body
+from flexcage.modes.exchange.body import ReducedBody
+from flexcage.modes.exchange.formats import write_body
 
 LOADS = {"N1013": {"radial": 5000.0}, "7010C-PI": {"radial": 300.0, "axial": 500.0}}
 

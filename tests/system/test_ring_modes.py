@@ -17,7 +17,7 @@ from flexcage.modes.ring import RingSeat, reduce_ring
 from flexcage.stages import assembled_start, bearing_in_motion, cage_mesh
 from flexcage.static import solve_static
 from flexcage.stress.rings import ring_field
-from flexcage.system.rings.low_modes import CARRIED, left_over, low_modes
+from flexcage.system.rings.low_modes import CARRIED, low_modes, residual_compliance
 from flexcage.system.rings.modes import deflect
 from flexcage.system.rings.modes_data import modes_of
 from flexcage.system.rings.moving import moving_rings
@@ -50,13 +50,13 @@ def differ_little(found, wanted, share):
 # --- supports ------------------------------------------------------------------------------------
 
 
-def brute_force(between, room):
+def brute_force(between, free):
     """Forces of supports that only press, by trying all sets of them."""
-    for bears in product((False, True), repeat=len(room)):
+    for bears in product((False, True), repeat=len(free)):
         keep = np.array(bears)
-        press = np.zeros(len(room))
-        press[keep] = np.linalg.solve(between[np.ix_(keep, keep)], room[keep])
-        entered = room - between @ press
+        press = np.zeros(len(free))
+        press[keep] = np.linalg.solve(between[np.ix_(keep, keep)], free[keep])
+        entered = free - between @ press
         if (press >= 0.0).all() and (entered[~keep] <= 0.0).all():
             return press
     raise AssertionError
@@ -70,14 +70,14 @@ def test_supports_press_and_are_not_entered(holds):
     for _ in range(60):
         root = rng.standard_normal((6, 6))
         between = root @ root.T + 0.05 * np.eye(6)
-        room = rng.standard_normal(6)
+        free = rng.standard_normal(6)
         modes = modes_of(
             1, none, none, np.zeros((0, 2)), np.zeros((0, 3)), nothing, nothing, np.zeros((0, 0)),
             np.zeros((6, 0)), np.zeros((6, 0)), azimuth=np.zeros(6), between=between, holds=holds,
         )  # fmt: skip
-        modes.room[:] = room
+        modes.free_penetration[:] = free
         press_supports(modes)
-        wanted = np.linalg.solve(between, room) if holds else brute_force(between, room)
+        wanted = np.linalg.solve(between, free) if holds else brute_force(between, free)
         assert modes.press == pytest.approx(wanted, rel=1e-9, abs=1e-12)
         sets.add(tuple(modes.press > 0.0))
     assert len(sets) > 15  # of different supports
@@ -110,7 +110,7 @@ def test_modes_of_a_thin_ring_are_those_in_closed_form():
         assert found == pytest.approx([2.0 * n**2 / (mass * (n**2 + 1))] * 2, rel=0.02)
     assert modes.frequency.max() < CARRIED
     assert np.array_equal(low_modes(ring).shape, modes.shape)  # signs too: a run may be resumed
-    rest = left_over(ring, modes)
+    rest = residual_compliance(ring, modes)
     assert (np.linalg.eigvalsh(rest[:, :2, :2]) > 0.0).all()
     assert rest[2, 0, 0] < 1e-2 * ring.compliance[2, 0, 0]
 

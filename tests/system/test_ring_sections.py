@@ -9,7 +9,11 @@ import flexcage
 from flexcage.stages import assembled_start, bearing_in_motion, cage_mesh
 from flexcage.static import solve_static
 from flexcage.system.data import IN_CONTACTS, STRAIN
-from flexcage.system.rings.left_out import left_by_lands, left_by_ribs, left_out
+from flexcage.system.rings.neglected import (
+    neglected_at_lands,
+    neglected_at_ribs,
+    neglected_deflection,
+)
 from flexcage.system.statics.options import AT_START
 
 ARCS = {
@@ -147,11 +151,11 @@ def test_a_warning_names_what_a_land_leaves_out(seat, clearance, told):
         "cage.guidance": "inner", "contacts.land.clearance": clearance,
     })  # fmt: skip
     bearing = bearing_in_motion(case, cage_mesh(case), None)
-    (side, *_), left = bearing.rings.start.rings, left_out(bearing.rings)
+    (side, *_), left = bearing.rings.start.rings, neglected_deflection(bearing.rings)
     # modes of two waves and more carry little of it: the ring moves as a whole
     whole = np.abs(side.deflection[:, :2]).max()
     assert left[0] == pytest.approx(side.deflection[:, :2], abs=0.1 * whole) and not left[1].any()
-    sentences = list(left_by_lands(bearing.rings, bearing.data.model.land))
+    sentences = list(neglected_at_lands(bearing.rings, bearing.data.model.land))
     assert len(sentences) == told
     if told:
         share = np.abs(left[0][:, 1]).max() / clearance
@@ -165,8 +169,8 @@ def test_ribs_leave_out_little_of_a_ring_on_arcs():
     case = at_rest("N1013", **RIBS, **ARCS, **{"load.axial": 600.0})
     moving = bearing_in_motion(case, cage_mesh(case), None).rings
     whole = np.abs(moving.start.rings[0].deflection[:, 1:]).max(axis=0)
-    rest = np.abs(left_out(moving)[1]).max(axis=0)
+    rest = np.abs(neglected_deflection(moving)[1]).max(axis=0)
     assert 0.0 < rest[0] < 0.1 * whole[0] and rest[1] < whole[1]
-    assert not list(left_by_ribs(moving, 1, 2e-3, 60e-6))
-    (said,) = left_by_ribs(moving, 1, 2e-3, 1e-9)
+    assert not list(neglected_at_ribs(moving, 1, 2e-3, 60e-6))
+    (said,) = neglected_at_ribs(moving, 1, 2e-3, 1e-9)
     assert "the ribs of the outer ring follow" in said

@@ -19,8 +19,8 @@ from flexcage.core.errors import InputError
 from flexcage.fem.model import assemble
 from flexcage.geometry.materials import MATERIALS
 from flexcage.mesh.cage_mesh import signed_volumes
-from flexcage.modes.door.body import MODAL, ReducedBody
-from flexcage.modes.door.formats import write_body
+from flexcage.modes.exchange.body import MODAL, ReducedBody
+from flexcage.modes.exchange.formats import write_body
 from flexcage.static import solve_static
 from flexcage.system.seat import seat_compliance
 from flexcage.system.spec import Load, Mount

@@ -1,243 +1,332 @@
-"""The paper's Figures 5 to 25 from what was computed, and its printed number laid beside."""
+"""The paper's figures from what was computed, laid out as the paper has them: its conditions
+overlaid on one axis, orbits beside each other on one scale."""
 
 from __future__ import annotations
 
 import tomllib
-from math import degrees, nan, pi
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from math import pi
 from pathlib import Path
 
 import numpy as np
-from claims import ALL_LOADS, ALL_SPEEDS, LOADS, POCKETS, RADIAL, RAMPS, SPEEDS, WAVES
-from paper_figures import stress
-from paper_page import Picture, Table
+from claims import LOADS, RAMPS, SPEEDS, WAVES
+from judging.pictures import bands, overlaid, starts
+from matplotlib.axes import Axes
+from outputs import mass_centre
 
+import flexcage
+from flexcage import Run
 from flexcage.render import sheet
 from flexcage.results import metrics
 
 PRINTED = tomllib.loads((Path(__file__).with_name("printed.toml")).read_text("utf-8"))
-BETTER, PRINTED_MODEL = "better model", "as printed"  # columns of readings
-AXIAL, COMBINED = "map, axial load", "map, combined load"  # columns of maps
-COLOURS = {AXIAL: sheet.ORANGE, COMBINED: sheet.BLUE}
-SWEEPS = {
-    "speed, rpm": ALL_SPEEDS, "load, N": ALL_LOADS,
-    "clearance of pockets, mm": POCKETS, "radial clearance, mm": RADIAL,
-}  # fmt: skip
-SECTORS = 18  # of the way round, in which balls' forces and angles are averaged
-UM, PERCENT, RPM = 1e6, 100.0, 30.0 / pi
+UM, PERCENT, RPM, DEG = 1e6, 100.0, 30.0 / pi, 180.0 / pi
+READINGS = {"printed": "as printed", "better": "better model"}
+TINTS = {"printed": sheet.INK, "better": sheet.GREEN}
+ALL_SPEEDS = {n: f"{int(n):,} rpm" for n in ("4000", "6000", "8000", "10000", "12000")}
+FEW_SPEEDS = {n: ALL_SPEEDS[n] for n in SPEEDS}
+ALL_LOADS = {"8000": "5,000 N", "radial 9000 N": "9,000 N", LOADS[1]: "12,500 N"}
+STEPS = {f"both {step}": f"{step} mm" for step in ("0.02", "0.08", "0.14")}
+WAVE_NAMES, RAMP_NAMES = ({name: name for name in names} for names in (WAVES, RAMPS))
+WIDE, HIGH, SQUARE, LEFT, TOP, GAP_X, GAP_Y = 440, 220, 230, 90, 110, 85, 90  # px, of panels
+
+Curve = Callable[[Run], tuple[np.ndarray, np.ndarray]]
 
 
-def draw(computed, folder: Path) -> list[Picture]:
-    """All pictures, in the paper's order."""
-    by_azimuth(computed, folder / "figure_6_10_14.png", angles=False)
-    orbits(computed, folder / "figure_7_11_15.png", list(SWEEPS.values()))
-    deviations(computed, folder / "figure_8_12_16.png")
-    by_azimuth(computed, folder / "figure_9_13_17.png", angles=True)
-    over_time(computed, folder / "figure_18_21.png", "Waves of the speed", WAVES)
-    orbits(computed, folder / "figure_19_22.png", [WAVES, RAMPS])
-    over_time(computed, folder / "figure_23_25.png", "Equal times of acceleration", RAMPS)
-    return [
-        Picture("figure_6_10_14.png", "Figures 6, 10 and 14: force of balls on the inner ring",
-                "First start of the better model, over the way from the load: mean in 18 sectors."),
-        Picture("figure_7_11_15.png", "Figures 7, 11 and 15: the cage's centre",
-                "First starts, better model, settled part; each panel on its own scale, um."),
-        Picture("figure_8_12_16.png", "Figures 8, 12 and 16: deviation ratio",
-                "Dots are starts, bars the middle 80 % of points of a map at its conditions. "
-                "The triangle is the printed 24.44 %."),
-        Picture("figure_9_13_17.png", "Figures 9, 13 and 17: contact angles by place",
-                "As above; full lines inner ring, broken lines outer ring."),
-        Picture("figure_18_21.png", "Figures 18 and 21: waves of the speed",
-                "Speed of the ring (grey) and cage over its share of it, axial motion, cage slip."),
-        Picture("figure_19_22.png", "Figures 19 and 22: the cage's centre under waves and "
-                "accelerations", "First starts, better model."),
-        Picture("figure_23_25.png", "Figures 23 to 25: accelerations for equal times",
-                "1000, 2000 and 4000 rad/s^2 for 0.2 s from 4000 rpm on: speeds, axial motion, "
-                "cage slip."),
-        *stress(
-            computed, folder, "Stress of the cage at 8000 rpm",
-            "Better model with a flexible cage, 40 ms: equivalent stress at its largest. "
-            "The paper has no such figure.",
-        ),
-    ]  # fmt: skip
+@dataclass(frozen=True)
+class Panel:
+    """One panel: its title, axis names, what draws it, and with which panels it shares a scale."""
+
+    title: str
+    below: str
+    unit: str
+    draw: Callable[[Axes], None]
+    scale: str = ""
+    square: bool = False
 
 
-def tick(condition: str) -> str:
-    """A condition's number: rpm, N, or mm."""
-    if condition in ALL_SPEEDS:
-        return condition
-    return condition.split()[0] if condition.endswith(" N") else condition.split()[-1]
+def sheet_of(path: Path, title: str, rows: Sequence[Sequence[Panel]]) -> str:
+    """Rows of panels, those of one scale on it; the file's name."""
+    sides = [SQUARE if row[0].square else WIDE for row in rows]
+    highs = [SQUARE if row[0].square else HIGH for row in rows]
+    wide = max(len(row) * (side + GAP_X) for row, side in zip(rows, sides))
+    groups: dict[str, list[Axes]] = {}
+    with sheet.style():
+        figure = sheet.new_figure(LEFT + wide, TOP + sum(high + GAP_Y for high in highs))
+        sheet.heading(figure, title, "")
+        top = TOP
+        for row, side, high in zip(rows, sides, highs):
+            for k, panel in enumerate(row):
+                ax = sheet.axes_at(figure, (LEFT + k * (side + GAP_X), top, side, high))
+                panel.draw(ax)
+                ax.set_title(panel.title, loc="left", fontsize=10)
+                ax.set(xlabel=panel.below, ylabel=panel.unit)
+                groups.setdefault(panel.scale or str(id(ax)), []).append(ax)
+            top += high + GAP_Y
+        for axes in groups.values():
+            same_scale(axes)
+        sheet.save(figure, path)
+    return path.name
 
 
-def ticks(name: str, conditions) -> list[str]:
-    """Numbers along a sweep; that over load starts with 1500 N, which is the speed "8000"."""
-    return ["1500" if name.startswith("load") and c == "8000" else tick(c) for c in conditions]
+def same_scale(axes: Sequence[Axes]) -> None:
+    """Give axes the limits that all of them need."""
+    low, high = zip(*(ax.get_ylim() for ax in axes))
+    for ax in axes:
+        ax.set_ylim(min(low), max(high))
 
 
-def done(computed, conditions) -> list[str]:
-    """Those of the conditions that the better model has a start of."""
-    return [c for c in conditions if len(computed.readings[BETTER].values("speed", c))]
-
-
-def settled(run):
+def settled(run: Run):
     """The settled part of a run."""
     return metrics.settled(run.dataset, run.case.output.settle)
 
 
-def sectors(run) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Middles of sectors from the load on [deg], mean inner force [N], mean inner and outer contact
-    angles [deg] of balls that pass them; NaN where none touches."""
+def by_place(name: str, race: int = 0) -> Curve:
+    """A variable of one ball at a race over its place from the load [deg], as it passes, in the
+    order of time; lines are broken where a turn begins. An angle is there while it touches."""
+
+    def curve(run: Run) -> tuple[np.ndarray, np.ndarray]:
+        ds = settled(run)
+        psi = ds["element_position"].sel(cyl="psi").isel(element=0).values
+        at = np.degrees(np.mod(psi - run.case.load.direction + pi, 2.0 * pi) - pi)
+        value = ds[name].isel(element=0, race=race).values.astype(float)
+        if name == "contact_angle":
+            touch = ds["race_force"].isel(element=0, race=race).values > 0.0
+            value = np.where(touch, value * DEG, np.nan)
+        value[1:][np.abs(np.diff(at)) > 180.0] = np.nan
+        return at, value
+
+    return curve
+
+
+def in_equilibrium(ax: Axes, run: Run, race: int, *, angle: bool) -> None:
+    """The static solution (equations 8 to 12) over the place from the load [deg]."""
+    found = flexcage.solve_static(run.case).elements
+    at = np.degrees(np.mod(found.azimuth - run.case.load.direction + pi, 2.0 * pi) - pi)
+    values = found.angle[:, race] * DEG if angle else found.force[:, race]
+    order = np.argsort(at)
+    label = None if ax.lines else "equilibrium"
+    ax.plot(at[order], values[order], "o", ms=2.5, color="0.35", zorder=4, label=label)
+
+
+def cage_speed(run: Run) -> tuple[np.ndarray, np.ndarray]:
+    """Speed of the cage [rpm] over time [ms]."""
+    return run.dataset["time"].values * 1e3, run.dataset["cage_omega"].sel(axis="x").values * RPM
+
+
+def ring_speed(run: Run) -> tuple[np.ndarray, np.ndarray]:
+    """Speed of the inner ring [rpm] over time [ms], settled."""
     ds = settled(run)
-    psi = ds["element_position"].transpose("time", "element", "cyl").sel(cyl="psi").values
-    at = np.round((psi - run.case.load.direction) * SECTORS / (2.0 * pi)).astype(int) % SECTORS
-    force = ds["race_force"].transpose("time", "element", "race").values
-    angle = ds["contact_angle"].transpose("time", "element", "race").values
-
-    def angles(race: int) -> np.ndarray:
-        touch = [(at == k) & (force[..., race] > 0.0) for k in range(SECTORS)]
-        return np.array([degrees(angle[..., race][m].mean()) if m.any() else nan for m in touch])
-
-    mean = np.array([force[..., 0][at == k].mean() for k in range(SECTORS)])
-    return 360.0 * np.arange(SECTORS) / SECTORS, mean, angles(0), angles(1)
+    return ds["time"].values * 1e3, ds["inner_speed"].values * RPM
 
 
-def by_azimuth(computed, path: Path, *, angles: bool) -> Path:
-    """Forces, or contact angles, over the way round, a panel a sweep and a line a condition."""
-    wide, high, left, top = 330, 260, 90, 130
-    title = "Contact angles by place, deg" if angles else "Force of balls on the inner ring, N"
+def axial(run: Run) -> tuple[np.ndarray, np.ndarray]:
+    """Axial displacement of the inner ring from that at the start [um] over time [ms]."""
+    x = run.dataset["inner_position"].sel(axis="x").values
+    return run.dataset["time"].values * 1e3, (x - x[0]) * UM
+
+
+def slip(run: Run) -> tuple[np.ndarray, np.ndarray]:
+    """Slip of the cage [%] over time [ms], settled."""
+    ds = settled(run)
+    ideal = run.numbers.nominal.kinematics(1.0).cage_speed * ds["inner_speed"].values
+    return ds["time"].values * 1e3, (1.0 - ds["cage_omega"].sel(axis="x").values / ideal) * PERCENT
+
+
+def force(run: Run) -> tuple[np.ndarray, np.ndarray]:
+    """Force of one ball on the inner ring [N] over time [ms]."""
+    found = run.dataset["race_force"].isel(element=0, race=0).values
+    return run.dataset["time"].values * 1e3, found
+
+
+@dataclass(frozen=True)
+class Pictures:
+    """Draws what was computed, sheet by sheet, into a folder."""
+
+    computed: object
+    folder: Path
+
+    @property
+    def columns(self) -> list[str]:
+        """Readings that there are."""
+        return list(self.computed.readings)
+
+    def there(self, column: str, names: Mapping[str, str]) -> dict[str, str]:
+        """Conditions that a reading has."""
+        return {c: n for c, n in names.items() if c in self.computed.readings[column].conditions}
+
+    def row(self, names: Mapping[str, str], curve: Curve, unit: str, *, below: str = "time / ms",
+            title: str = "", static: int | None = None) -> list[Panel]:  # fmt: skip
+        """A panel a reading: conditions overlaid, and where ``static`` names a race its
+        equilibrium under every condition."""
+
+        def draw(column: str) -> Callable[[Axes], None]:
+            def drawn(ax: Axes) -> None:
+                reading = self.computed.readings[column]
+                if static is not None:
+                    for c in self.there(column, names):
+                        in_equilibrium(ax, reading.run(c), static, angle="deg" in unit)
+                    ax.set(xlim=(-180, 180), xticks=(-180, -90, 0, 90, 180))
+                overlaid(ax, reading, self.there(column, names), curve)
+
+            return drawn
+
+        scale = f"{title} {unit} {below}"
+        return [Panel(f"{title}{READINGS[c]}", below, unit, draw(c), scale) for c in self.columns]
+
+    def forces(self, names: Mapping[str, str], title: str) -> list[Panel]:
+        """One ball's force on the inner ring over its place: a panel a reading."""
+        return self.row(names, by_place("race_force"), "force / N", title=title, static=0,
+                        below="place from the load / deg")  # fmt: skip
+
+    def angles(self, names: Mapping[str, str], title: str) -> list[Panel]:
+        """Contact angles of one ball over its place, of the better reading: a panel a race."""
+        column = self.columns[-1]
+
+        def draw(race: int) -> Callable[[Axes], None]:
+            def drawn(ax: Axes) -> None:
+                reading = self.computed.readings[column]
+                for c in self.there(column, names):
+                    in_equilibrium(ax, reading.run(c), race, angle=True)
+                overlaid(ax, reading, self.there(column, names), by_place("contact_angle", race))
+                ax.set(xlim=(-180, 180), xticks=(-180, -90, 0, 90, 180))
+
+            return drawn
+
+        below, unit = "place from the load / deg", "angle / deg"
+        return [Panel(f"{title}{race} race", below, unit, draw(k)) for k, race in
+                enumerate(("inner", "outer"))]  # fmt: skip
+
+    def orbits(self, names: Mapping[str, str], title: str, column: str) -> list[Panel]:
+        """Orbits of the cage's mass centre, a panel a condition, all on one scale."""
+        reading, found = self.computed.readings[column], {}
+        for c in self.there(column, names):
+            run = reading.run(c)
+            found[c] = mass_centre(settled(run), run)[0] * UM
+        reach = 1.05 * max((np.abs(yz).max() for yz in found.values()), default=1.0)
+
+        def draw(c: str) -> Callable[[Axes], None]:
+            def drawn(ax: Axes) -> None:
+                ax.plot(found[c][:, 1], -found[c][:, 0], color=TINTS[column], lw=0.6)
+                ax.set(xlim=(-reach, reach), ylim=(-reach, reach))
+
+            return drawn
+
+        return [Panel(f"{title}{names[c]}, {READINGS[column]}", "z / um", "-y / um", draw(c),
+                      square=True) for c in found]  # fmt: skip
+
+    def over(self, output: str, axis: Mapping[str, float], sample: str, factor: float) -> Callable:
+        """An output over an axis of conditions: settings and starts of both readings."""
+
+        def drawn(ax: Axes) -> None:
+            if sample in self.computed.samples:
+                known = self.computed.samples[sample]
+                there = {c: at for c, at in axis.items() if c in known.conditions}
+                bands(ax, known, output, there, factor)
+            for column, reading in self.computed.readings.items():
+                starts(ax, reading, output, axis, factor, colour=TINTS[column],
+                       label=READINGS[column])  # fmt: skip
+            ax.legend(loc="best", fontsize=8, frameon=False)
+
+        return drawn
+
+
+def draw(computed, folder: Path) -> dict[str, str]:
+    """All sheets by the figures that they repeat."""
+    p = Pictures(computed, folder)
+    first, last = p.columns[0], p.columns[-1]
+    speeds = {c: float(c) for c in ALL_SPEEDS}
+    loads = {c: float(n.split()[0].replace(",", "")) for c, n in ALL_LOADS.items()}
+    steps = {c: float(n.split()[0]) for c, n in STEPS.items()}
+
+    def ratio(axis: Mapping[str, float], sample: str, below: str) -> Panel:
+        return Panel("deviation ratio", below, "ratio / %", p.over("deviation", axis, sample,
+                     PERCENT))  # fmt: skip
+
+    def block(names, axis, sample, below) -> list[list[Panel]]:
+        return [p.forces(names, "Force, "), p.orbits(names, "", first), p.orbits(names, "", last),
+                [ratio(axis, sample, below)], p.angles(names, "Angle, ")]  # fmt: skip
+
+    rows = {
+        "5": [[Panel("cage speed", "ring speed / rpm", "cage speed / rpm",
+                     p.over("speed", speeds, "speeds", RPM))]],
+        "6": [p.forces(FEW_SPEEDS, "")],
+        "7_9": block(ALL_SPEEDS, speeds, "speeds", "ring speed / rpm")[1:],
+        "10_13": block(ALL_LOADS, loads, "loads", "radial load / N"),
+        "14_17": block(STEPS, steps, "clearance", "clearance of pockets and races / mm"),
+        "18_21": [p.row(WAVE_NAMES, ring_speed, "ring speed / rpm")[:1],
+                  p.orbits(WAVE_NAMES, "", first), p.orbits(WAVE_NAMES, "", last),
+                  [Panel("largest force", "0 sine, 1 triangle, 2 rectangle", "force / N",
+                         p.over("peak", {w: float(k) for k, w in enumerate(WAVES)}, "waves", 1.0))],
+                  p.row(WAVE_NAMES, axial, "axial place / um"),
+                  p.row(WAVE_NAMES, slip, "cage slip / %")],
+        "22_25": [p.orbits(RAMP_NAMES, "", first), p.orbits(RAMP_NAMES, "", last),
+                  p.row(RAMP_NAMES, force, "force / N"),
+                  p.row(RAMP_NAMES, axial, "axial place / um"),
+                  p.row(RAMP_NAMES, cage_speed, "cage speed / rpm")],
+    }  # fmt: skip
+    found = {"sketch": sketch(folder / "sketch.png")}
+    for key, panels in rows.items():
+        title = f"Figure{'s' * ('_' in key)} {key.replace('_', ' to ')}"
+        found[key] = sheet_of(folder / f"figure_{key}.png", title, panels)
+    return found
+
+
+def sketch(path: Path) -> str:
+    """The bearing in section and from the side, with the symbols of the page; the file's name."""
     with sheet.style():
-        figure = sheet.new_figure(left + 4 * (wide + 60), top + high + 90)
-        sheet.heading(figure, title, "over the azimuth from the load, deg")
-        for k, (name, conditions) in enumerate(SWEEPS.items()):
-            ax = sheet.axes_at(figure, (left + k * (wide + 60), top, wide, high))
-            there = done(computed, conditions)
-            for colour, c, label in zip(sheet.CYCLE, there, ticks(name, there)):
-                at, force, inner, outer = sectors(computed.readings[BETTER].run(c))
-                ax.plot(at, inner if angles else force, color=colour, label=label)
-                if angles:
-                    ax.plot(at, outer, "--", color=colour)
-            ax.set_title(name, loc="left")
-            ax.set(xlim=(0, 340), xticks=(0, 90, 180, 270))
-            if there:
-                ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=4, fontsize=7,
-                          handlelength=1.0, columnspacing=1.2)  # fmt: skip
-        return sheet.save(figure, path)
+        figure = sheet.new_figure(900, 430)
+        sheet.heading(figure, "Bearing, loads and what is read", "")
+        section = sheet.axes_at(figure, (60, 100, 360, 290))
+        along_the_axis = sheet.axes_at(figure, (480, 100, 360, 290))
+        draw_section(section)
+        draw_front(along_the_axis)
+        for ax in (section, along_the_axis):
+            ax.set(aspect="equal")
+            ax.axis("off")
+        sheet.save(figure, path)
+    return path.name
 
 
-def orbits(computed, path: Path, rows) -> Path:
-    """Orbits of the cage's centre, a row a sweep."""
-    side, gap, left, top = 250, 85, 100, 130
-    rows = [found for row in rows if (found := done(computed, row))]
-    wide = max((len(row) for row in rows), default=1)
-    with sheet.style():
-        figure = sheet.new_figure(left + wide * (side + gap), top + len(rows) * (side + gap))
-        sheet.heading(figure, "Orbits of the cage's centre", "um; load and gravity down")
-        for i, row in enumerate(rows):
-            for k, c in enumerate(row):
-                yz = UM * metrics.orbit(settled(computed.readings[BETTER].run(c)))
-                place = (left + k * (side + gap), top + i * (side + gap), side, side)
-                ax = sheet.axes_at(figure, place)
-                ax.plot(yz[:, 1], -yz[:, 0], color=sheet.BLUE, lw=0.5)
-                middle = [0.5 * (yz[:, j].max() + yz[:, j].min()) for j in (0, 1)]
-                reach = 0.55 * max(np.ptp(yz, axis=0))
-                ax.set(
-                    xlim=(middle[1] - reach, middle[1] + reach),
-                    ylim=(-middle[0] - reach, -middle[0] + reach),
-                )
-                ax.set_title(f"1500 N, {c} rpm" if c in ALL_SPEEDS else c, loc="left")
-        return sheet.save(figure, path)
+def arrow(ax: Axes, start, end, text: str, *, colour: str = sheet.INK) -> None:
+    """An arrow with its symbol at its beginning."""
+    ax.annotate("", end, start, arrowprops={"arrowstyle": "->", "color": colour, "lw": 1.4})
+    ax.text(*start, text, color=colour, fontsize=10, ha="center", va="bottom")
 
 
-def deviations(computed, path: Path) -> Path:
-    """The deviation ratio over every sweep."""
-    wide, high, left, top = 330, 260, 90, 130
-    with sheet.style():
-        figure = sheet.new_figure(left + 4 * (wide + 60), top + high + 120)
-        sheet.heading(figure, "Deviation ratio of the speed of the cage's mass centre", "%")
-        for k, (name, conditions) in enumerate(SWEEPS.items()):
-            ax = sheet.axes_at(figure, (left + k * (wide + 60), top, wide, high))
-            for i, c in enumerate(conditions):
-                found = computed.readings[BETTER].values("deviation", c) * PERCENT
-                ax.plot(np.full(len(found), i), found, "o", ms=3.0, color=sheet.GREEN,
-                        label=BETTER if i == 0 else None)  # fmt: skip
-                for shift, (column, joined) in zip((0.12, 0.24), computed.maps.items()):
-                    colour = COLOURS[column]
-                    if c not in joined.parts[0].conditions:
-                        continue
-                    values = joined.means("deviation", c) * PERCENT
-                    if not np.isfinite(values).any():
-                        continue
-                    low, mid, high_ = np.nanpercentile(values, (10.0, 50.0, 90.0))
-                    ax.plot([i + shift] * 2, [low, high_], color=colour, lw=3.0, alpha=0.5)
-                    ax.plot(i + shift, mid, "_", color=colour, ms=9.0, mew=2.0,
-                            label=column if i == len(conditions) - 1 else None)  # fmt: skip
-                if c in PRINTED["deviation"]:
-                    ax.plot(i - 0.12, PRINTED["deviation"][c], "^", color=sheet.INK, label="paper")
-            ax.set_title(name, loc="left")
-            ax.set(xticks=range(len(conditions)), ylim=(0.0, None), xlim=(-0.4, len(conditions)))
-            ax.set_xticklabels(ticks(name, conditions))
-            if conditions == ALL_LOADS:  # the panel that has the paper's number as well
-                ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncol=4, fontsize=7)
-        return sheet.save(figure, path)
+def draw_section(ax: Axes) -> None:
+    """A ball between its grooves, and the contact angles."""
+    turn, lean, gap = np.linspace(0.0, 2.0 * pi, 200), 0.3, 0.1
+    ax.fill(np.cos(turn), np.sin(turn), color="0.85")
+    for sign, text, colour in ((1.0, "outer race: Q_e, α_e", sheet.BLUE),
+                               (-1.0, "inner race: Q_i, α_i", sheet.VERMILION)):  # fmt: skip
+        to = sign * np.array([np.sin(lean), np.cos(lean)])
+        arc = np.arctan2(to[1], to[0]) + np.linspace(-0.8, 0.8, 60)
+        groove = -gap * to[:, None] + (1.0 + gap) * np.stack([np.cos(arc), np.sin(arc)])
+        ax.plot(*groove, color=colour, lw=2.0)
+        ax.plot([0.0, 1.5 * to[0]], [0.0, 1.5 * to[1]], color=colour, lw=0.9, ls="--")
+        ax.text(*(1.65 * to), text, color=colour, fontsize=9, ha="center", va="center")
+    ax.plot([0.0, 0.0], [-1.5, 1.5], color="0.6", lw=0.8)
+    arrow(ax, (-2.2, -1.1), (-1.2, -1.1), "axial load F_x")
+    arrow(ax, (1.9, 0.5), (1.9, -0.6), "radial load F_r")
+    ax.plot([-2.4, 2.4], [-2.2, -2.2], color="0.6", lw=0.8, ls="-.")
+    ax.text(2.4, -2.15, "axis x", fontsize=9, ha="right", va="bottom")
+    ax.set(xlim=(-2.8, 2.8), ylim=(-2.4, 2.0))
 
 
-def over_time(computed, path: Path, title: str, conditions) -> Path:
-    """Speeds, axial motion of the inner ring and slip of the cage, a column a condition."""
-    wide, high, left, top = 420, 170, 100, 130
-    with sheet.style():
-        figure = sheet.new_figure(left + 3 * (wide + 70), top + 3 * (high + 60) + 10)
-        sheet.heading(figure, title, "rpm of the cage (grey: rolling); axial, um; slip, %; over ms")
-        for k, c in enumerate(done(computed, conditions)):
-            run = computed.readings[BETTER].run(c)
-            ds = run.dataset if c in RAMPS else settled(run)
-            t = ds["time"].values * 1e3
-            ideal = run.numbers.nominal.kinematics(1.0).cage_speed * ds["inner_speed"].values
-            cage = ds["cage_omega"].sel(axis="x").values
-            axial = ds["inner_position"].sel(axis="x").values * UM
-            slip = (1.0 - cage / ideal) * PERCENT
-            for i, y in enumerate((cage * RPM, axial, slip)):
-                ax = sheet.axes_at(
-                    figure, (left + k * (wide + 70), top + i * (high + 60), wide, high)
-                )
-                if i == 0:
-                    ax.plot(t, ideal * RPM, color="0.75", lw=1.2, zorder=3)
-                    ax.set_title(c, loc="left")
-                ax.plot(t, y, color=sheet.BLUE, lw=0.7)
-                ax.set(xlim=(t[0], t[-1]))
-        return sheet.save(figure, path)
-
-
-def starts(reading, output: str, condition: str, factor: float) -> str:
-    """Mean of all starts with half its 95 % interval; of fewer starts their mean alone."""
-    found = reading.values(output, condition)
-    if len(found) < 8:
-        return digits(found.mean() * factor) if len(found) else "-"
-    return reading.said(output, condition, factor)
-
-
-def digits(value: float) -> str:
-    """Three digits; whole numbers from 100 on."""
-    return f"{value:,.0f}" if abs(value) >= 100.0 else f"{value:.3g}"
-
-
-def tables(computed) -> list[Table]:
-    """What the paper's figures are made of, beside the one number that it prints."""
-    head = ("quantity", "case", "paper", *computed.readings, *computed.maps)
-    asked = (
-        ("deviation ratio [%]", "deviation", PERCENT, (*ALL_SPEEDS, *ALL_LOADS[1:], *POCKETS,
-                                                      *RADIAL)),
-        ("largest force of a ball [N]", "one_peak", 1.0, (*SPEEDS, *LOADS, *POCKETS, *RADIAL)),
-        ("inner angle at the load [deg]", "inner_load", 180.0 / pi, (*SPEEDS, *LOADS, *RADIAL)),
-        ("outer angle at the load [deg]", "outer_load", 180.0 / pi, (*SPEEDS, *LOADS)),
-        ("cage speed [rpm]", "speed", RPM, ALL_SPEEDS),
-    )  # fmt: skip
-    rows = []
-    for title, output, factor, conditions in asked:
-        for c in conditions:
-            shown = PRINTED["deviation"].get(c) if output == "deviation" else None
-            rows.append((
-                title, f"{c} rpm" if c in ALL_SPEEDS else c,
-                "-" if shown is None else f"{shown:g}",
-                *(starts(r, output, c, factor) for r in computed.readings.values()),
-                *(m.middle(output, c, factor, digits) for m in computed.maps.values()),
-            ))  # fmt: skip
-    title = "Readings: mean of all starts ± 95 %. Maps: median (middle 80 % of points)"
-    return [Table(title, head, rows)]
+def draw_front(ax: Axes) -> None:
+    """Rings, balls and cage along the axis: the load, a ball's place, the cage's mass centre."""
+    turn = np.linspace(0.0, 2.0 * pi, 300)
+    for radius, colour in ((1.45, sheet.BLUE), (1.0, sheet.VERMILION), (1.22, "0.6")):
+        ax.plot(radius * np.cos(turn), radius * np.sin(turn), color=colour, lw=1.4)
+    for k in range(18):
+        at = 2.0 * pi * k / 18
+        ax.fill(1.22 * np.cos(at) + 0.16 * np.cos(turn), 1.22 * np.sin(at) + 0.16 * np.sin(turn),
+                color="0.8")  # fmt: skip
+    arrow(ax, (0.0, 0.55), (0.0, -0.55), "F_r")
+    ax.plot(0.12, -0.08, "x", color=sheet.GREEN, ms=9, mew=2)
+    ax.text(0.2, -0.12, "mass centre", color=sheet.GREEN, fontsize=9, va="top")
+    ax.annotate("place 0", (0.0, -1.45), (0.0, -1.85), ha="center", fontsize=9)
+    ax.annotate("place 90", (1.45, 0.0), (1.55, 0.0), va="center", fontsize=9)
+    ax.set(xlim=(-2.2, 2.2), ylim=(-2.0, 1.6))

@@ -1,7 +1,8 @@
 """What one run of the 7010C shows: the numbers that the paper's figures and text are made of.
 
 Numbers that studies of this folder ask for. All are over the whole settled record; of a run that
-accelerates, that is nearly all of it.
+accelerates, that is nearly all of it. Orbit and speed are those of the cage's mass centre, which an
+unbalance puts beside the centre of its pockets.
 """
 
 from __future__ import annotations
@@ -11,14 +12,19 @@ from math import radians
 
 import numpy as np
 
+import flexcage
 from flexcage import register
 from flexcage.results import metrics
+from flexcage.results.lowpass import butterworth, low_passed_both_ways
 from flexcage.results.reductions import main_line, mean_frequency
+from flexcage.results.statistics import element_passes
 
 LOW_PASS = 2e3  # Hz, of the cage's speed beside the raw samples
 SECTOR = radians(30.0)  # to either side of the load, and of the place opposite
 FORCED = (0, 6, 12)  # balls whose forces' spectra are averaged
+PARTS = 12  # of the way round an orbit, in each of which its boundary is its largest radius
 UNITS = {
+    "drifts": "",  # 1 where the whirl of the record's halves differs
     "speed": "rpm",  # of the cage, mean
     "slip": "%",  # of the cage against pure rolling at the nominal angle
     "slip_ripple": "%",  # standard deviation of that over time
@@ -31,7 +37,7 @@ UNITS = {
     "deviation": "%",  # the paper's ratio: of the speed of the cage's mass centre
     "deviation_slow": "%",  # the same below 2 kHz
     "line": "%",  # share of the strongest line in the variance of the orbit
-    "circle": "",  # largest less least radius of the orbit about its mean place, over the mean
+    "boundary": "",  # largest less least radius of the orbit's boundary, over the mean
     "turns": "",  # of the centre about the axis, over those of the cage
     "radius": "um",  # of the orbit about its mean place
     "distance": "um",  # largest of the centre from the axis
@@ -43,54 +49,99 @@ UNITS = {
     "axial_rough": "um",  # rms of that motion about its own mean over a turn of the ring
     "axial_rate": "m/s",  # axial motion over the time it takes
     "largest_pocket_force": "N",  # largest on the cage
+    "static_force": "N",  # of the heaviest ball in equilibrium (equations 8 to 12)
 }
 
 
 def evaluate(run) -> Mapping[str, float]:
     """All of ``UNITS`` of one run, in SI."""
-    case = run.case
-    assert case.cage.unbalance == 0.0  # so that the frame's origin is the mass centre
-    ds = metrics.settled(run.dataset, case.output.settle)
+    ds = metrics.settled(run.dataset, run.case.output.settle)
+    axial = ds["inner_position"].sel(axis="x").values
     time = ds["time"].values
-    step = float(np.median(np.diff(time)))
+    return {
+        **cage_motion(ds, run),
+        **balls(ds, run.case.load.direction),
+        "axial_range": float(np.ptp(axial)),
+        "axial_rough": rough(axial, time, float(ds["inner_speed"].values.mean())),
+        "axial_rate": float(np.ptp(axial) / np.ptp(time)),
+        "largest_pocket_force": float(metrics.pocket_peaks(ds).values.max()),
+        "static_force": float(flexcage.solve_static(run.case).elements.force[:, 0].max()),
+    }
+
+
+def cage_motion(ds, run) -> dict[str, float]:
+    """Speed and slip of the cage, and the motion of its mass centre."""
+    step = float(np.median(np.diff(ds["time"].values)))
+    omega = ds["cage_omega"].sel(axis="x").values
+    slip = 1.0 - omega / (run.numbers.nominal.kinematics(1.0).cage_speed * ds["inner_speed"].values)
+    orbit, velocity = mass_centre(ds, run)
+    about = orbit - orbit.mean(axis=0)
+    radius = np.linalg.norm(about, axis=1)
+    passes = element_passes(ds, run.numbers)
+    shares = [main_line(x, step)[1] for x in orbit.T]
+    return {
+        "drifts": float(passes.mean(radius).drift > 1.0),
+        "speed": float(omega.mean()),
+        "slip": float(slip.mean()),
+        "slip_ripple": float(slip.std()),
+        "deviation": ratio(np.linalg.norm(velocity, axis=1)),
+        "deviation_slow": ratio(np.linalg.norm(slow(velocity, step), axis=1)),
+        "line": float(np.average(shares, weights=orbit.var(axis=0))),
+        "boundary": uneven_boundary(about),
+        "turns": metrics.whirl(ds, about="axis").speed_ratio,
+        "radius": float(radius.mean()),
+        "distance": float(np.linalg.norm(orbit, axis=1).max()),
+    }
+
+
+def balls(ds, direction: float) -> dict[str, float]:
+    """Forces and contact angles of balls at the load and opposite."""
+    step = float(np.median(np.diff(ds["time"].values)))
     force = ds["race_force"].transpose("time", "element", "race").values.astype(float)
     inner, outer = force[..., 0], force[..., 1]
     angle = ds["contact_angle"].transpose("time", "element", "race").values
     psi = ds["element_position"].transpose("time", "element", "cyl").sel(cyl="psi").values
-    towards = np.cos(psi - case.load.direction)
+    towards = np.cos(psi - direction)
     near, far = towards > np.cos(SECTOR), towards < -np.cos(SECTOR)
-    omega = ds["cage_omega"].sel(axis="x").values
-    share = run.numbers.nominal.kinematics(1.0).cage_speed
-    slip = 1.0 - omega / (share * ds["inner_speed"].values)
-    orbit, radius = metrics.orbit(ds), metrics.whirl_radius(ds)
-    axial = ds["inner_position"].sel(axis="x").values
-    shares = [main_line(x, step)[1] for x in orbit.T]
     return {
-        "speed": float(omega.mean()),
-        "slip": float(slip.mean()),
-        "slip_ripple": float(slip.std()),
         "peak": float(inner.max()),
         "one_peak": float(inner.max(axis=0).mean()),
         "load_force": _mean(inner, near),
         "off_force": _mean(inner, far),
         "gaps": float((inner <= 0.0)[towards < 0.0].mean()),
         "frequency": float(np.mean([mean_frequency(inner[:, b], step) for b in FORCED])),
-        "deviation": ratio(metrics.centre_speed(ds)),
-        "deviation_slow": ratio(metrics.centre_speed(ds, low_pass=LOW_PASS)),
-        "line": float(np.average(shares, weights=orbit.var(axis=0))),
-        "circle": float(np.ptp(radius) / radius.mean()),
-        "turns": metrics.whirl(ds, about="axis").speed_ratio,
-        "radius": float(radius.mean()),
-        "distance": float(metrics.whirl_radius(ds, about="axis").max()),
         "inner_load": _mean(angle[..., 0], near & (inner > 0.0)),
         "outer_load": _mean(angle[..., 1], near & (outer > 0.0)),
         "inner_off": _mean(angle[..., 0], far & (inner > 0.0)),
         "outer_off": _mean(angle[..., 1], far & (outer > 0.0)),
-        "axial_range": float(np.ptp(axial)),
-        "axial_rough": rough(axial, time, float(ds["inner_speed"].values.mean())),
-        "axial_rate": float(np.ptp(axial) / np.ptp(time)),
-        "largest_pocket_force": float(metrics.pocket_peaks(ds).values.max()),
     }
+
+
+def mass_centre(ds, run) -> tuple[np.ndarray, np.ndarray]:
+    """Place across the axis (n, 2) [m] and velocity (n, 3) [m/s] of the cage's mass centre."""
+    cage = run.case.cage
+    away = cage.unbalance / float(run.summary["cage_mass"])
+    at = metrics.carrier_angle(ds) + cage.unbalance_phase
+    omega = ds["cage_omega"].sel(axis="x").values
+    velocity = ds["cage_velocity"].transpose("time", "axis").values.copy()
+    velocity[:, 1] -= away * omega * np.sin(at)
+    velocity[:, 2] += away * omega * np.cos(at)
+    return metrics.orbit(ds) + away * np.stack([np.cos(at), np.sin(at)], axis=1), velocity
+
+
+def slow(velocity: np.ndarray, step: float) -> np.ndarray:
+    """A velocity (n, 3) below ``LOW_PASS``."""
+    return low_passed_both_ways(butterworth(2.0 * LOW_PASS * step), velocity)
+
+
+def uneven_boundary(about: np.ndarray) -> float:
+    """Largest less least radius over the mean of the boundary of an orbit (n, 2) about its mean
+    place: its largest radius in each of ``PARTS``, 0 where it never is. A circle has 0, an ellipse
+    of twice the length 0.6, a line 2 or more."""
+    part = np.floor(np.arctan2(about[:, 1], about[:, 0]) / (2.0 * np.pi) * PARTS).astype(int)
+    radius = np.linalg.norm(about, axis=1)
+    reach = np.array([radius[part % PARTS == k].max(initial=0.0) for k in range(PARTS)])
+    return float(np.ptp(reach) / reach.mean())
 
 
 def ratio(speed: np.ndarray) -> float:

@@ -5,19 +5,18 @@
 Conclusion 2 names 24.44 % for a load of 12,500 N and, in the same sentence, the ratio at 0.14 mm,
 which is not shown. ``value`` is the ratio itself, not an increase, as 24.44 % is read.
 
-ln R(0.14 mm) = m + d. m is ln R of a point of one of the maps at 0.14 mm, the clearance read as the
-pockets' or the bearing's (half of the prior each), weighted by how near ln R of the same point at
-12,500 N is to ln 0.2444 (Gaussian, deviation T), plus that point's own miss times a share that is
-uniform from 0 to 1 (a miss may be common to both figures or not); or, with half of the prior, the
-printed 24.44 % itself, as if both figures showed a cage that is disturbed alike. d is Gaussian of
-deviation T, log-uniform over 0.1 to 0.6.
+ln R(0.14 mm) = m + d. m is ln R of a point of the map of clearances at 0.14 mm, the clearance read
+as the pockets', the races' or both (a third of the prior each), weighted by how near ln R of the
+same point at 12,500 N is to ln 0.2444 (Gaussian, deviation T), plus that point's own miss times a
+share that is uniform from 0 to 1 (a miss may be common to both figures or not); or, with half of
+the prior, the printed 24.44 % itself, as if both figures showed a cage that is disturbed alike. d
+is Gaussian of deviation T, log-uniform over 0.1 to 0.6.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-import sys
 import tomllib
 from pathlib import Path
 
@@ -61,21 +60,17 @@ def prediction(printed: float, loaded: np.ndarray, wide: np.ndarray) -> list[dic
 
 
 def main() -> None:
-    sys.path.insert(0, str(HERE.parent))
-    from paper_results import Joined
-
     from flexcage.study import MapResults
 
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("-o", "--out", type=Path, default=Path("runs/c7010_vibro_impact"))
     out = parser.parse_args().out
-    maps = [out / name for name in ("map_axial", "map_combined") if (out / name).is_dir()]
-    joined = Joined([MapResults(path) for path in maps])
-    loaded = joined.means("deviation", "12500 N")
-    wide = [joined.means("deviation", f"{kind} 0.14") for kind in ("pocket", "radial")]
+    clearance = MapResults(out / "map_clearance")
+    loaded = clearance.means("deviation", "radial 12500 N")
+    wide = [clearance.means("deviation", f"{kind} 0.14") for kind in ("pockets", "races", "both")]
     printed = tomllib.loads((HERE / "printed.toml").read_text("utf-8"))
-    share = 0.01 * printed["deviation"]["12500 N"]
-    rows = prediction(share, np.tile(loaded, 2), np.concatenate(wide))
+    share = 0.01 * printed["deviation"]["radial 12500 N"]
+    rows = prediction(share, np.tile(loaded, 3), np.concatenate(wide))
     text = json.dumps(rows, indent=1)
     (HERE / "predictions.json").write_text(text + "\n", encoding="utf-8")
     print(text)

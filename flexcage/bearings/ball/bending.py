@@ -11,7 +11,7 @@ from dataclasses import replace
 from flexcage.bearings.ball.model import BallModel
 from flexcage.bearings.ball.motion import MOTION
 from flexcage.bearings.ball.residual import (
-    BESIDE,
+    NEIGHBOUR_FORCES,
     SHARED,
     ball_in_pocket,
     ball_rows,
@@ -24,10 +24,10 @@ from flexcage.bearings.ball.start import ball_start_between_bent_rings
 from flexcage.contacts.evaluation import RACE_LAW, RACE_RUBS, REPORT
 from flexcage.contacts.groove import (
     BallOnRace,
+    gradient_direction,
     groove_contact,
-    lean_on,
-    leaning,
     line_of_contact,
+    penetration_gradient,
 )
 from flexcage.contacts.slices import Laws, elastic_forces
 from flexcage.contacts.state import set_frame
@@ -68,7 +68,7 @@ def evaluate(t, y, yd, d, law, out, mode):
     q, u, qd, ud = y[: at.bodies_q], y[at.u : at.bodies_u], yd[: at.bodies_q], yd[at.u :]
     r_q, r_u, s = out[: at.bodies_q], out[at.u :], y[at.loads :]
     modes = set_bodies(y, d, mode)
-    law[BESIDE](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
+    law[NEIGHBOUR_FORCES](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
     deflect_races(q, inner_of(y, d).q, outer_of(y, d).q, s, races)
     displace_by_modes(q, u, y, d)
     Rc, Vc = array_from(y, at.cage_q), array_from(y, at.cage_u)
@@ -161,8 +161,8 @@ def _pressing(ball, race, sl):
     e, n, distance, reach = line_of_contact(ball.centre, ball.axis, race)
     sl.d[0] = reach - race.radius + ball.radius
     if race.uneven + ball.spotted > 0:
-        lean, _ = lean_on(ball, race, (e, n, distance, reach), sl)
-        return leaning(lean, n, cross(ball.axis, e))
+        gradient, _ = penetration_gradient(ball, race, (e, n, distance, reach), sl)
+        return gradient_direction(gradient, n, cross(ball.axis, e))
     return n
 
 

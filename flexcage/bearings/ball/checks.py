@@ -14,7 +14,7 @@ from flexcage.geometry.checks import (
     MOST_SCATTER,
     Finding,
     check_cage_defects,
-    check_room,
+    check_fit,
     find_off_pitch_circle,
     raise_first,
 )
@@ -40,7 +40,7 @@ def check(bearing: BallBearing, cage: Cage | None, defects: Sequence[Any]) -> No
         raise_first(_find_in_clearance(bearing, bearing.clearance))
     if cage is None:
         return
-    check_room(bearing, cage, find_around_cage(bearing, cage))
+    check_fit(bearing, cage, find_around_cage(bearing, cage))
     cage.check(bearing.ball_count)
     check_cage_defects(bearing, cage, defects)
 

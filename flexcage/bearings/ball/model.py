@@ -8,11 +8,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from flexcage.bearings.ball.bearing import BallBearing
-from flexcage.bearings.ball.neighbours import besides
+from flexcage.bearings.ball.neighbours import ball_ball_data
 from flexcage.bodies.floating_frame import BodyData, no_body
 from flexcage.cages.round_pocket.cage import BallCage
 from flexcage.cages.round_pocket.interface import BallCageInterface
 from flexcage.contacts import laws
+from flexcage.contacts.ball_ball import BallBallContact
 from flexcage.contacts.ball_pocket import (
     CYLINDER,
     SPHERE,
@@ -20,7 +21,6 @@ from flexcage.contacts.ball_pocket import (
     ball_pocket_work,
     no_ball_pockets,
 )
-from flexcage.contacts.beside import BallsBeside
 from flexcage.contacts.groove import Groove
 from flexcage.contacts.land import NONE, LandData, no_land, with_other
 from flexcage.contacts.race import race_work
@@ -60,7 +60,7 @@ class BallModel(NamedTuple):
     inner: Groove
     outer: Groove
     pocket: BallPockets
-    beside: BallsBeside
+    neighbours: BallBallContact
     spot: SpottedBalls
     land: LandData
 
@@ -186,7 +186,7 @@ def build_ball_model(
             _pockets(bearing, cage, contacts, interface) if cage
             else no_ball_pockets(bearing.ball_count)
         ),
-        beside=besides(bearing, contacts, radius_of_balls),
+        neighbours=ball_ball_data(bearing, contacts, radius_of_balls),
         spot=SpottedBalls(marked(bearing.ball_count, bearing.ball_spot.balls)),
         land=(
             _lands(bearing, cage, contacts.land, lubricant, interface.land) if cage else no_land()

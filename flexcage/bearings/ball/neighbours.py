@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flexcage.contacts import laws as contact_laws
-from flexcage.contacts.beside import BallsBeside, TwoBalls, seen, touch_beside
+from flexcage.contacts.ball_ball import BallBallContact, TwoBalls, ball_ball_contact, rotated
 from flexcage.contacts.evaluation import RACE_LAW, RACE_RUBS, REPORT, TANGENT
 from flexcage.contacts.laws import EXPONENT
 from flexcage.contacts.slices import Laws, stored_and_damped
@@ -38,15 +38,15 @@ _NEAR = 1.05  # balls so many diameters apart or nearer are looked at
 _POINT = 1.5  # exponent of a Hertz contact
 
 
-def besides(bearing: BallBearing, contacts: Contacts, radius: np.ndarray) -> BallsBeside:
+def ball_ball_data(bearing: BallBearing, contacts: Contacts, radius: np.ndarray) -> BallBallContact:
     """How balls of these radii (Z,) [m] touch each other, by the laws of the races."""
     half = 0.25 * bearing.ball_diameter  # of two equal spheres
     two = PointContact(
         rolling=half, transverse=half, modulus=bearing.rolling_material.plane_strain_modulus
     )
-    inside = 0.5 * bearing.pitch_diameter * (1.0 - _INWARDS)
-    return BallsBeside(
-        apart=2.0 * asin(min(_NEAR * float(radius.max()) / inside, 1.0)),
+    inner_radius = 0.5 * bearing.pitch_diameter * (1.0 - _INWARDS)
+    return BallBallContact(
+        cutoff=2.0 * asin(min(_NEAR * float(radius.max()) / inner_radius, 1.0)),
         normal=contact_laws.normal_parameters(contacts.race.normal, two.stiffness, _POINT),
         friction=contact_laws.friction_parameters(contacts.race.friction),
     )
@@ -58,12 +58,12 @@ def touch_neighbours(t, y, yd, d, law, out, mode):
 
     Compiled separately, so that the code of all other contacts stays as it is, to the bit.
     """
-    at, apart = fields(d.places), fields(d.beside).apart
+    at, cutoff = fields(d.places), fields(d.neighbours).cutoff
     Z, q, u = at.elements, y[: at.bodies_q], y[at.u : at.bodies_u]
     for i in range(Z):
         j = i + 1 if i + 1 < Z else 0
         ahead = _ahead(i, j, q)
-        if ahead < apart:
+        if ahead < cutoff:
             if mode == TANGENT:
                 _slopes(i, j, ahead, q, u, d, law)
             else:
@@ -91,10 +91,10 @@ def _pair(i, j, ahead, q, u, d):
     radius, onset = fields(d.bodies).radius, fields(d.memory).rib[i, 0]
     qi, qj, ui, uj = q[of_element(i)], q[of_element(j)], u[of_element(i)], u[of_element(j)]
     c, s = cos(ahead), sin(ahead)
-    place = minus(seen(c, s, (qj[0], qj[1], 0.0)), (qi[0], qi[1], 0.0))
-    velocity = minus(xyz(ui), seen(c, s, xyz(uj)))
+    place = minus(rotated(c, s, (qj[0], qj[1], 0.0)), (qi[0], qi[1], 0.0))
+    velocity = minus(xyz(ui), rotated(c, s, xyz(uj)))
     return TwoBalls(
-        (radius[i], radius[j]), place, velocity, turn_of(ui), seen(c, s, turn_of(uj)), onset
+        (radius[i], radius[j]), place, velocity, turn_of(ui), rotated(c, s, turn_of(uj)), onset
     )
 
 
@@ -102,20 +102,20 @@ def _pair(i, j, ahead, q, u, d):
 def _push(i, j, ahead, q, u, d, law, mode):
     """Balls i and j, which are near each other."""
     work, sl = fields(d.scratch), fields(d.slices).row[0]
-    beside, rep = fields(d.beside), fields(d.report)
+    data, rep = fields(d.neighbours), fields(d.report)
     two = _pair(i, j, ahead, q, u, d)
-    touch = touch_beside(two, beside, Laws(law[RACE_LAW], law[RACE_RUBS]), sl)
+    touch = ball_ball_contact(two, data, Laws(law[RACE_LAW], law[RACE_RUBS]), sl)
     if mode >= REPORT:
         rep.approach[i, _next_ball(rep)] = sl.v[0]
     if sl.d[0] <= 0.0:
         return
     arms, c, s = touch.arms, cos(ahead), sin(ahead)
     moment = cross(touch.line, touch.friction)
-    back = seen(c, -s, times(-1.0, touch.force))
+    back = rotated(c, -s, times(-1.0, touch.force))
     add_force_and_moment(work.wrenches[i], touch.force, times(arms[0], moment))
-    add_force_and_moment(work.wrenches[j], back, seen(c, -s, times(arms[1], moment)))
+    add_force_and_moment(work.wrenches[j], back, rotated(c, -s, times(arms[1], moment)))
     if mode >= REPORT:
-        energy, damped = stored_and_damped((0, 1), sl, beside.normal[EXPONENT])
+        energy, damped = stored_and_damped((0, 1), sl, data.normal[EXPONENT])
         rep.rib[i, 0] = sl.N[0]
         rep.contact[i, _next_ball(rep)] = 1 if sl.N[0] > 0.0 else 0
         rep.energy[IN_CONTACTS] += energy
@@ -128,13 +128,13 @@ def _slopes(i, j, ahead, q, u, d, law):
     """Those of balls i and j, which are near each other."""
     sl, pair, tan = fields(d.slices).row[0], fields(d.pair), fields(d.tangent)
     two = _pair(i, j, ahead, q, u, d)
-    touch = touch_beside(two, fields(d.beside), Laws(law[RACE_LAW], law[RACE_RUBS]), sl)
+    touch = ball_ball_contact(two, fields(d.neighbours), Laws(law[RACE_LAW], law[RACE_RUBS]), sl)
     if sl.d[0] <= 0.0:
         return
     c, s, arms = cos(ahead), sin(ahead), touch.arms
     line, slip = touch.line, touch.slip
     _own_slopes(line, slip, arms[0], sl, pair, tan.Krr[i], tan.Crr[i])
-    line, slip = seen(c, -s, times(-1.0, line)), seen(c, -s, times(-1.0, slip))
+    line, slip = rotated(c, -s, times(-1.0, line)), rotated(c, -s, times(-1.0, slip))
     _own_slopes(line, slip, arms[1], sl, pair, tan.Krr[j], tan.Crr[j])
 
 

@@ -67,9 +67,9 @@ def overlaps(model: BallModel, layout: Layout, y: np.ndarray) -> np.ndarray:
             (model.outer, at - q["outer"][:, None, :3]),
         )
     ]
-    beside = radius + np.roll(radius, -1) - np.linalg.norm(np.roll(at, -1, axis=1) - at, axis=-1)
+    gaps = radius + np.roll(radius, -1) - np.linalg.norm(np.roll(at, -1, axis=1) - at, axis=-1)
     if not layout.has_cage:
-        return np.stack([*races, beside], axis=-1)
+        return np.stack([*races, gaps], axis=-1)
     frames = Rotation.from_quat(q["quaternion"], scalar_first=True).as_matrix()
     seen = np.einsum("nzc,ncd->nzd", at - q["cage"][:, None], frames)
     cos, sin = model.pocket.azimuth.T
@@ -80,7 +80,7 @@ def overlaps(model: BallModel, layout: Layout, y: np.ndarray) -> np.ndarray:
     )
     away = np.hypot(seen[..., 1], seen[..., 2])
     outside = np.maximum(model.pocket.wall[0] - away, away - model.pocket.wall[1])
-    return np.stack([*races, free - (model.pocket.radius - radius), beside, outside], axis=-1)
+    return np.stack([*races, free - (model.pocket.radius - radius), gaps, outside], axis=-1)
 
 
 def _remedy(model: BallModel) -> str:

@@ -68,7 +68,7 @@ from flexcage.system.layout import FRAME, QUATERNION, of_element
 from flexcage.system.ring import inner_of, outer_of, set_axes
 
 # places in ``law``: the family's functions ``separate``
-SHARED, BESIDE = FAMILY_PARTS, FAMILY_PARTS + 1
+SHARED, NEIGHBOUR_FORCES = FAMILY_PARTS, FAMILY_PARTS + 1
 
 
 def evaluate(t, y, yd, d, law, out, mode):
@@ -81,7 +81,7 @@ def evaluate(t, y, yd, d, law, out, mode):
     q, u, qd, ud = y[: at.bodies_q], y[at.u : at.bodies_u], yd[: at.bodies_q], yd[at.u :]
     r_q, r_u = out[: at.bodies_q], out[at.u :]
     modes = set_bodies(y, d, mode)
-    law[BESIDE](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
+    law[NEIGHBOUR_FORCES](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
     Rc, Vc = array_from(y, at.cage_q), array_from(y, at.cage_u)
     for i in range(at.elements):
         own = of_element(i)

@@ -22,7 +22,7 @@ from flexcage.system.begun import Advance, Start, StaticStart
 from flexcage.system.layout import Layout
 from flexcage.system.problem import BearingSystem
 from flexcage.system.rings.moving import SIDES
-from flexcage.system.start import made_room
+from flexcage.system.start import clear_of_land
 from flexcage.system.statics.solution import StaticSolution
 
 _ALIKE = 1e-3  # rad: contact angles closer than this leave a ball's axis to their mean
@@ -35,7 +35,7 @@ def ball_start(
     assert statics is not None, "balls start at their static solution"
     model, solution = bearing.data.model, statics()
     y = ball_places(bearing, solution)
-    made_room(model.land, bearing.layout, y)
+    clear_of_land(model.land, bearing.layout, y)
     yd = rolling_balls(model, bearing.layout, solution, y)
     assert isinstance(bearing.spec, BallBearing)
     turn_spots(bearing.spec.ball_spot, bearing.layout, y, yd)

@@ -106,15 +106,15 @@ class Balls:
         """Balls on the outer race alone, where they push; squeezed along the line of both grooves'
         centres; and wedged between both grooves, too far apart to squeeze them."""
         groove, (inner, outer) = self.groove(v), self.bearing.contacts
-        apart, toward = np.hypot(*groove), np.arctan2(groove[0], groove[1])
+        distance, toward = np.hypot(*groove), np.arctan2(groove[0], groove[1])
         depths = [(self.push / c.stiffness) ** (2.0 / 3.0) for c in (inner, outer)]
         reach = [length + depth for length, depth in zip(self.lengths, depths)]
         soft = [c.stiffness ** (-2.0 / 3.0) for c in (inner, outer)]
-        squeeze = np.maximum(apart - sum(self.lengths), 0.0)
+        squeeze = np.maximum(distance - sum(self.lengths), 0.0)
         squeezed = self.lengths[1] + squeeze * soft[1] / sum(soft)
-        cosine = (reach[1] ** 2 + apart**2 - reach[0] ** 2) / (2.0 * reach[1] * apart)
+        cosine = (reach[1] ** 2 + distance**2 - reach[0] ** 2) / (2.0 * reach[1] * distance)
         outwards = toward - np.sign(toward) * np.arccos(np.clip(cosine, -1.0, 1.0))
-        places = (reach[1] + 0.0 * apart, 0.0 * toward), (squeezed, toward), (reach[1], outwards)
+        places = (reach[1] + 0.0 * distance, 0.0 * toward), (squeezed, toward), (reach[1], outwards)
         return [np.stack([r * np.sin(t), r * np.cos(t)], axis=1) for r, t in places]
 
     def moved(self, w: np.ndarray, step: np.ndarray) -> np.ndarray:

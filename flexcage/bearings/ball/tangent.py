@@ -2,15 +2,15 @@
 
 ``linearise`` fills the tangent apart from ``residual.evaluate``, so that who takes explicit steps
 neither compiles nor passes it. Contacts give slopes over a ball's place and velocities against the
-ring or cage (``contacts.groove_tangent``, ``contacts.ball_pocket_tangent``); ``system.relative``
-makes of these the columns of ball and body. Left out are how inertia follows motion, but for the
-ball's, and how the orbit's rate follows the ball's radius.
+ring or cage (``contacts.groove_tangent``, ``contacts.ball_pocket_tangent``);
+``system.contact_tangent`` makes of these the columns of ball and body. Left out are how inertia
+follows motion, but for the ball's, and how the orbit's rate follows the ball's radius.
 """
 
 from __future__ import annotations
 
 from flexcage.bearings.ball.residual import (
-    BESIDE,
+    NEIGHBOUR_FORCES,
     SHARED,
     in_pocket,
     on_race,
@@ -29,6 +29,7 @@ from flexcage.contacts.slices import Laws
 from flexcage.contacts.state import set_frame
 from flexcage.core.jit import array_from, fields, part, zero
 from flexcage.core.vectors import RIGID, TURN, column, minus, put, turn_of, turned, xyz
+from flexcage.system.contact_tangent import BodyUnknowns, RelativeMotion, add_contact_tangent
 from flexcage.system.data import (
     AXIAL,
     CAGE_SPIN,
@@ -38,7 +39,6 @@ from flexcage.system.data import (
     OUTER_RACE,
 )
 from flexcage.system.layout import of_element
-from flexcage.system.relative import Against, Relative, add_slopes
 from flexcage.system.ring import inner_of, outer_of
 
 
@@ -48,7 +48,7 @@ def linearise(t, y, yd, data):
     at = fields(d.places)
     q, u = y[: at.bodies_q], y[at.u : at.bodies_u]
     modes = set_bodies(y, d, TANGENT)
-    law[BESIDE](t, y, yd, d, law[:FAMILY_PARTS], fields(d.scratch).out, TANGENT)
+    law[NEIGHBOUR_FORCES](t, y, yd, d, law[:FAMILY_PARTS], fields(d.scratch).out, TANGENT)
     Rc, Vc = array_from(y, at.cage_q), array_from(y, at.cage_u)
     for i in range(at.elements):
         qi, ui = q[of_element(i)], u[of_element(i)]
@@ -74,15 +74,16 @@ def _race(i, qi, ui, ring, groove, race, d, law):
     for c in range(3):
         put(moves[c], column(F, c))
         put(moves[TURN + c, TURN:], column(F, c))
-    by, tan, body = _relative(ball, ui, qi[1]), fields(d.tangent), Against(ring.b, 6, 1, 0, 0)
-    add_slopes(i, by, body, moves, pair.K, pair.C, pair.wrench, pair.W[0], tan)
+    by, tan = _relative_motion(ball, ui, qi[1]), fields(d.tangent)
+    body = BodyUnknowns(ring.b, 6, 1, 0, 0)
+    add_contact_tangent(i, by, body, moves, pair.K, pair.C, pair.wrench, pair.W[0], tan)
 
 
 @part
-def _relative(ball, ui, r):
+def _relative_motion(ball, ui, r):
     """Motion of a ball (``BallOnRace``) and its ring."""
     V, w = xyz(ui), turn_of(ui)
-    return Relative(ball.centre, minus(V, ball.ring_velocity), ball.ring_spin, V, w, r)
+    return RelativeMotion(ball.centre, minus(V, ball.ring_velocity), ball.ring_spin, V, w, r)
 
 
 @part
@@ -103,10 +104,10 @@ def _pocket(i, qi, ui, Rc, Vc, modes, d, law):
         put(moves[TURN + c, TURN:], turned(F, column(work.A, c)))
     V, w = xyz(ui), turn_of(ui)
     spin = turned(F, xyz(work.vec[CAGE_SPIN]))
-    by = Relative(ball.centre, minus(V, turned(F, xyz(Vc))), spin, V, w, qi[1])
+    by = RelativeMotion(ball.centre, minus(V, turned(F, xyz(Vc))), spin, V, w, qi[1])
     b = fields(d.places).cage_b
-    body = Against(b, 6, 0, 1, b + RIGID)
-    add_slopes(i, by, body, moves, pw.K, pw.C, wrench, pw.gen[0], tan)
+    body = BodyUnknowns(b, 6, 0, 1, b + RIGID)
+    add_contact_tangent(i, by, body, moves, pw.K, pw.C, wrench, pw.gen[0], tan)
 
 
 @part

@@ -14,18 +14,18 @@ from flexcage.bearings.cylindrical_roller.residual import (
     POCKETS,
     SHARED,
     add_to_ring,
-    beside,
     on_ribs,
     report_outer,
     report_race,
     report_ribs,
+    ring_partner,
     roller_rows,
     set_bodies,
 )
 from flexcage.bearings.cylindrical_roller.scales import roller_weights
 from flexcage.bearings.cylindrical_roller.start import roller_start_between_bent_rings
 from flexcage.contacts.evaluation import OUTER_RING, RACE_LAW, RACE_RUBS, REPORT, RESIDUAL
-from flexcage.contacts.race import meet_race, push_by_race, rub_race
+from flexcage.contacts.race import race_friction, race_penetrations, race_wrench
 from flexcage.contacts.slices import Laws, normal_forces_of_lot
 from flexcage.contacts.state import AXIS, CENTRE, Q_SPIN, SPIN, VELOCITY, take_pose
 from flexcage.core.jit import VECTORISED, fields, outlined, part
@@ -106,19 +106,19 @@ def _on_race(side, y, s, ring, race, modes, d, law, mode):
         for i in range(first - lot, last):
             take_pose(work.poses[i], pose)
             at = rw.partner[count]
-            beside(i, q, ring, d, at)
+            ring_partner(i, q, ring, d, at)
             displace(at, guess(side, i, s, races), races.way)
             _carry(i, at, modes, races.way)
-            if meet_race(count, pose, race, radius[i], turn, memory[i, side], rw):
+            if race_penetrations(count, pose, race, radius[i], turn, memory[i, side], rw):
                 rw.who[count] = i
                 count += 1
         _press(count, side, race, s, d, laws)
         for m in range(count):
             i = rw.who[m]
             take_pose(work.poses[i], pose)
-            push_by_race(m, pose, race, radius[i], turn, rw, pair, mode, work.sums)
+            race_wrench(m, pose, race, radius[i], turn, rw, pair, mode, work.sums)
             _bear(i, rw.partner[m, CENTRE], pair.wrench, modes)
-            beside(i, q, ring, d, rw.partner[m])  # forces act on its seat
+            ring_partner(i, q, ring, d, rw.partner[m])  # forces act on its seat
             add_to_ring(i, rw.partner[m, CENTRE], ring.b, d, mode)
             if mode >= REPORT:
                 report_race(i, side, work.sums, fields(d.report))
@@ -133,11 +133,11 @@ def _on_its_ribs(side, q, ring, ribs, modes, d, law, mode):
     moment = fields(d.rings).moment[side]
     for i in range(work.poses.shape[0]):
         take_pose(work.poses[i], pose)
-        beside(i, q, ring, d, at)
+        ring_partner(i, q, ring, d, at)
         carry_ribs(i, at, modes)
         if on_ribs(i, at, ribs, d, law, mode):
             bear_ribs(i, at[CENTRE], fields(d.pair).wrench, modes, moment)
-            beside(i, q, ring, d, at)
+            ring_partner(i, q, ring, d, at)
             add_to_ring(i, at[CENTRE], ring.b, d, mode)
             if mode >= REPORT:
                 report_ribs(i, ribs.column, work.sums, fields(d.report))
@@ -187,7 +187,7 @@ def _press(count, ring, side, s, d, laws):
             step = at_once(ring, taken, force, slope, rings)
         _follow(m, step, fields(d.pose), side, rw)
         rings.force[ring, i, 0], rings.force[ring, i, 1] = after(force, slope, step)
-    rub_race(count, side, laws, rw)
+    race_friction(count, side, laws, rw)
 
 
 @part(fastmath=VECTORISED)

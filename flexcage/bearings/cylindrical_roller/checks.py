@@ -15,7 +15,7 @@ from flexcage.geometry.checks import (
     MOST_SCATTER,
     Finding,
     check_cage_defects,
-    check_room,
+    check_fit,
     find_off_pitch_circle,
     raise_first,
 )
@@ -32,7 +32,7 @@ def check(bearing: RollerBearing, cage: Cage | None, defects: Sequence[Any]) -> 
     if cage is None:
         return
     cage.check(bearing.roller_count)
-    check_room(bearing, cage, find_around_cage(bearing, cage))
+    check_fit(bearing, cage, find_around_cage(bearing, cage))
     check_cage_defects(bearing, cage, defects)
 
 

@@ -11,11 +11,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 from math import ceil
 
-from flexcage.bearings.cylindrical_roller import inside
+from flexcage.bearings.cylindrical_roller import inference
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
 from flexcage.geometry.full_complement import elements_around, filling_count, reason_of_count
-from flexcage.geometry.inside import Candidate, Inside, Outline
+from flexcage.geometry.inference import Candidate, Inference, Outline
 
 _LONGEST = 2.0  # length over diameter of rollers
 _THINNEST = 0.15  # of a ring at its race, over the roller's diameter
@@ -27,7 +27,7 @@ _HALF = 0.5  # how unlikely diameters of half a millimetre are, beside whole one
 
 def candidates(outline: Outline) -> list[Candidate]:
     """As many rollers as fit, of each diameter that leaves rings, and each length."""
-    inside.check_design(outline)
+    inference.check_design(outline)
     found = []
     for inner, outer in _races(outline):
         diameter, pitch = 0.5 * (outer - inner), 0.5 * (outer + inner)
@@ -36,8 +36,8 @@ def candidates(outline: Outline) -> list[Candidate]:
         count = filling_count(diameter, pitch)
         unlikely = _unlikely(outline, diameter, pitch)
         races = replace(outline, inner_race_diameter=inner, outer_race_diameter=outer)
-        for length in inside.lengths(outline, diameter, _LONGEST):
-            made = inside.candidate(races, length, count)
+        for length in inference.lengths(outline, diameter, _LONGEST):
+            made = inference.candidate(races, length, count)
             reasons = {**made.reasons, **_reasons(outline, made)}
             found.append(replace(made, outline=outline, reasons=reasons,
                                  unlikely=made.unlikely + unlikely))  # fmt: skip
@@ -50,7 +50,7 @@ def _races(outline: Outline) -> Iterator[tuple[float, float]]:
     inner, outer = outline.inner_race_diameter, outline.outer_race_diameter
     if inner is not None and outer is not None:
         if outer <= inner:
-            raise inside.races_the_wrong_way(inner, outer)
+            raise inference.races_the_wrong_way(inner, outer)
         yield inner, outer
         return
     if inner is None and outer is None:
@@ -91,8 +91,8 @@ def _reasons(outline: Outline, made: Candidate) -> dict[str, str]:
     return reasons
 
 
-INSIDE = Inside(
-    candidates=inside.candidates,
+INFERENCE = Inference(
+    candidates=inference.candidates,
     cages={"cylindrical_roller": "window"},
     count="roller_count",
     full=candidates,

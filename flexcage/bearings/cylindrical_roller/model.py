@@ -10,7 +10,7 @@ import numpy as np
 from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
 from flexcage.bearings.cylindrical_roller.designs import DESIGNS
 from flexcage.bearings.cylindrical_roller.lands import limits
-from flexcage.bearings.cylindrical_roller.neighbours import rollers_beside
+from flexcage.bearings.cylindrical_roller.neighbours import roller_roller_data
 from flexcage.bearings.cylindrical_roller.ribs import rib_height
 from flexcage.bearings.cylindrical_roller.variables import END_POINTS
 from flexcage.bodies.floating_frame import BodyData, no_body
@@ -28,7 +28,7 @@ from flexcage.contacts.pocket_wall import (
 )
 from flexcage.contacts.race import RaceSide, race_work
 from flexcage.contacts.rib import RibData
-from flexcage.contacts.roller_beside import RollersBeside
+from flexcage.contacts.roller_roller import RollerRollerContact
 from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT
 from flexcage.contacts.uneven import is_uneven, spread, uneven_race
@@ -66,7 +66,7 @@ class RollerModel(NamedTuple):
     rib: RibData  # of the inner ring
     outer_rib: RibData
     pocket: PocketData
-    beside: RollersBeside
+    neighbours: RollerRollerContact
     spot: SpottedRollers
     land: LandData
 
@@ -291,7 +291,9 @@ def build_roller_model(
             _pocket_data(bearing, cage, contacts, interface) if cage
             else no_pockets(bearing.roller_count, 0.5 * bearing.roller_length)
         ),
-        beside=rollers_beside(bearing, contacts, *slice_grid(bearing, contacts.race.slices)),
+        neighbours=roller_roller_data(
+            bearing, contacts, *slice_grid(bearing, contacts.race.slices)
+        ),
         spot=SpottedRollers(marked(bearing.roller_count, spot.rollers), spot.angle),
         land=_land(bearing, cage, contacts, lubricant, interface) if cage else no_land(),
     )  # fmt: skip

@@ -11,16 +11,16 @@ from math import cos, pi, sin
 from typing import TYPE_CHECKING
 
 from flexcage.contacts import laws as contact_laws
-from flexcage.contacts.beside import seen
+from flexcage.contacts.ball_ball import rotated
 from flexcage.contacts.evaluation import RACE_LAW, RACE_RUBS, REPORT, TANGENT
 from flexcage.contacts.laws import EXPONENT
-from flexcage.contacts.roller_beside import (
-    RollersBeside,
+from flexcage.contacts.roller_roller import (
+    RollerRollerContact,
     TwoRollers,
+    add_to_both,
     approach_of,
-    push_both,
+    roller_roller_forces,
     slopes_of,
-    touch_roller,
 )
 from flexcage.contacts.slices import Laws, friction_power, stored_and_damped
 from flexcage.contacts.state import KEPT_AXES, KEPT_V, KEPT_W, add_force_and_moment
@@ -39,15 +39,15 @@ _LINE = 10.0 / 9.0  # exponent of ``iso_line_stiffness``
 NEXT_ROLLER = POCKET  # place of a roller's contact with the next one
 
 
-def rollers_beside(
+def roller_roller_data(
     bearing: RollerBearing, contacts: Contacts, s: np.ndarray, drop: np.ndarray
-) -> RollersBeside:
+) -> RollerRollerContact:
     """How rollers touch each other, by the laws of the races; their approach under a force is that
     of a line contact, whatever its curvature (A. Palmgren, see ``laws.iso_line_stiffness``)."""
     two = contact_laws.iso_line_stiffness(
         bearing.effective_length, bearing.rolling_material.plane_strain_modulus
     )
-    return RollersBeside(
+    return RollerRollerContact(
         s=s,
         drop=drop,
         normal=contact_laws.normal_parameters(contacts.race.normal, two, _LINE, parts=len(s)),
@@ -72,11 +72,11 @@ def _pair(i, j, q, d):
     qi, qj = q[of_element(i)], q[of_element(j)]
     ahead = qj[2] - qi[2] + (0.0 if j > i else 2.0 * pi)
     c, s, own, other = cos(ahead), sin(ahead), poses[i], poses[j]
-    place = minus(seen(c, s, (qj[0], qj[1], 0.0)), (qi[0], qi[1], 0.0))
+    place = minus(rotated(c, s, (qj[0], qj[1], 0.0)), (qi[0], qi[1], 0.0))
     two = TwoRollers(
-        (radius[i], radius[j]), row(own, KEPT_AXES), seen(c, s, row(other, KEPT_AXES)), place,
-        minus(row(own, KEPT_V), seen(c, s, row(other, KEPT_V))), row(own, KEPT_W),
-        seen(c, s, row(other, KEPT_W)), fields(d.memory).pocket[i, 0],
+        (radius[i], radius[j]), row(own, KEPT_AXES), rotated(c, s, row(other, KEPT_AXES)), place,
+        minus(row(own, KEPT_V), rotated(c, s, row(other, KEPT_V))), row(own, KEPT_W),
+        rotated(c, s, row(other, KEPT_W)), fields(d.memory).pocket[i, 0],
     )  # fmt: skip
     return two, ahead
 
@@ -84,29 +84,29 @@ def _pair(i, j, q, d):
 @outlined
 def _touch(i, j, q, d, law, mode):
     """Rollers i and j."""
-    sl, beside, rep, work = (
+    sl, data, rep, work = (
         fields(d.slices).row[0],
-        fields(d.beside),
+        fields(d.neighbours),
         fields(d.report),
         fields(d.scratch),
     )
     two, ahead = _pair(i, j, q, d)
-    depth, speed = approach_of(two, beside, sl)
+    depth, speed = approach_of(two, data, sl)
     if mode >= REPORT:
         rep.approach[i, NEXT_ROLLER], rep.pocket_normal[i, 0] = speed, 0.0
     if depth <= 0.0:
         return
-    touch_roller(two, beside, Laws(law[RACE_LAW], law[RACE_RUBS]), sl)
+    roller_roller_forces(two, data, Laws(law[RACE_LAW], law[RACE_RUBS]), sl)
     c, s, back = cos(ahead), sin(ahead), work.T6[0, 0]
     zero(back)
-    force = push_both(two, beside, sl, work.wrenches[i], back)
-    back_in_j = seen(c, -s, xyz(back)), seen(c, -s, turn_of(back))
+    force = add_to_both(two, data, sl, work.wrenches[i], back)
+    back_in_j = rotated(c, -s, xyz(back)), rotated(c, -s, turn_of(back))
     add_force_and_moment(work.wrenches[j], back_in_j[0], back_in_j[1])
     if mode == TANGENT:
         _slopes(i, j, two, ahead, d)
     elif mode >= REPORT:
-        span = (0, beside.s.shape[0])
-        energy, damped = stored_and_damped(span, sl, beside.normal[EXPONENT])
+        span = (0, data.s.shape[0])
+        energy, damped = stored_and_damped(span, sl, data.normal[EXPONENT])
         rep.pocket_normal[i, 0] = force
         rep.contact[i, NEXT_ROLLER] = 1 if force > 0.0 else 0
         rep.energy[IN_CONTACTS] += energy
@@ -117,14 +117,14 @@ def _touch(i, j, q, d, law, mode):
 @part
 def _slopes(i, j, two, ahead, d):
     """Slopes of both rollers' wrenches, each over its own motion."""
-    beside, sl, tan = fields(d.beside), fields(d.slices).row[0], fields(d.tangent)
-    slopes_of(two, beside, sl, fields(d.pair).W, tan.Krr[i], tan.Crr[i])
+    data, sl, tan = fields(d.neighbours), fields(d.slices).row[0], fields(d.tangent)
+    slopes_of(two, data, sl, fields(d.pair).W, tan.Krr[i], tan.Crr[i])
     c, s = cos(ahead), sin(ahead)
-    for k in range(beside.s.shape[0]):
+    for k in range(data.s.shape[0]):
         sl.t2[k] = -sl.t2[k]  # along the axis the other slides the other way
     other = TwoRollers(
-        (two.radii[1], two.radii[0]), seen(c, -s, two.other_axis), seen(c, -s, two.axis),
-        seen(c, -s, times(-1.0, two.place)), seen(c, -s, times(-1.0, two.velocity)),
-        seen(c, -s, two.other_spin), seen(c, -s, two.spin), two.onset,
+        (two.radii[1], two.radii[0]), rotated(c, -s, two.other_axis), rotated(c, -s, two.axis),
+        rotated(c, -s, times(-1.0, two.place)), rotated(c, -s, times(-1.0, two.velocity)),
+        rotated(c, -s, two.other_spin), rotated(c, -s, two.spin), two.onset,
     )  # fmt: skip
-    slopes_of(other, beside, sl, fields(d.pair).W, tan.Krr[j], tan.Crr[j])
+    slopes_of(other, data, sl, fields(d.pair).W, tan.Krr[j], tan.Crr[j])

@@ -51,7 +51,7 @@ def _variables(bearing: BearingSystem, y: np.ndarray) -> dict[str, np.ndarray]:
         "race_traction": s.race[:n, :, :, 1],
         "race_moment": s.race[:n, :, :, [3, 2]],
         "race_slip": s.race[:n, :, :, 4],
-        **(_in_pockets(bearing, n) if bearing.layout.has_cage else _beside(bearing, n)),
+        **(_in_pockets(bearing, n) if bearing.layout.has_cage else _neighbour_forces(bearing, n)),
         "rib_force": s.rib[:n, :, :2],
         "counter_rib_force": s.rib[:n, :, 2:] if s.rib.shape[2] > 2 else np.zeros_like(s.rib[:n]),
         **_spots(bearing.data.model, q),
@@ -69,7 +69,7 @@ def _in_pockets(bearing: BearingSystem, n: int) -> dict[str, np.ndarray]:
     }
 
 
-def _beside(bearing: BearingSystem, n: int) -> dict[str, np.ndarray]:
+def _neighbour_forces(bearing: BearingSystem, n: int) -> dict[str, np.ndarray]:
     """Of rollers without a cage: next ones stand for walls of pockets (``Motion.uncaged``)."""
     return {"neighbour_force": bearing.data.samples.pocket_normal[:n, :, 0]}
 
@@ -103,15 +103,15 @@ def overlaps(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarray:
         for f in range(data.first, data.end):
             ribs[data.column + f] = place[..., 0] * (1.0, -1.0)[f] + end - data.half_gap
     if layout.has_cage:
-        beside = _in_walls(model, q, at)
+        others = _in_walls(model, q, at)
     else:
         away = (np.roll(at, -1, axis=1) - at)[..., 1:]
-        beside = [radius + np.roll(radius, -1) - np.linalg.norm(away, axis=-1)]
+        others = [radius + np.roll(radius, -1) - np.linalg.norm(away, axis=-1)]
     return np.stack(
         [
             model.inner.radius + radius - np.hypot(in_inner[..., 1], in_inner[..., 2]),
             np.hypot(in_outer[..., 1], in_outer[..., 2]) + radius - model.outer.radius,
-            *beside,
+            *others,
             *ribs,
         ],
         axis=-1,

@@ -25,7 +25,7 @@ from flexcage.contacts.evaluation import (
     STORED,
     TANGENT,
 )
-from flexcage.contacts.race import meet_race, press_race, push_by_race
+from flexcage.contacts.race import race_forces, race_penetrations, race_wrench
 from flexcage.contacts.rib import rib_contact
 from flexcage.contacts.slices import Laws
 from flexcage.contacts.state import (
@@ -95,7 +95,7 @@ def evaluate(t, y, yd, d, law, out, mode):
 
     ``d`` (``problem.Parts``) refers to the model, its memory and its workspaces; ``law`` holds
     the normal laws of race, pocket, side, rib and land, their friction laws, the rows of further
-    constraints and what puts these in (``holding.hold``), and what is compiled separately:
+    constraints and what puts these in (``constraint_equations``), and what is compiled separately:
     ``roller_pockets`` and ``equations.shared_equations``.
     """
     at = fields(d.places)
@@ -147,7 +147,7 @@ def report_outer(d):
 
 
 @part
-def beside(i, q, ring, d, at):
+def ring_partner(i, q, ring, d, at):
     """A ring as the partner ``at`` of roller i, whose pose is taken."""
     F, qi = fields(d.pose).F, q[of_element(i)]
     put(at[CENTRE], minus((qi[0], qi[1], 0.0), turned(F, xyz(ring.q))))
@@ -182,17 +182,17 @@ def _on_ring(span, q, ring, side, ribs, race, d, law, mode):
     for i in range(span[0], span[1]):
         take_pose(work.poses[i], pose)
         at = rw.partner[count]
-        beside(i, q, ring, d, at)
+        ring_partner(i, q, ring, d, at)
         if ribs.end > ribs.first:
             push_by_ribs(i, at, ribs, ring.b, d, law, mode)
-        if meet_race(count, pose, side, radius[i], turn, memory[i, race], rw):
+        if race_penetrations(count, pose, side, radius[i], turn, memory[i, race], rw):
             rw.who[count] = i
             count += 1
-    press_race(count, side, Laws(law[RACE_LAW], law[RACE_RUBS]), rw)
+    race_forces(count, side, Laws(law[RACE_LAW], law[RACE_RUBS]), rw)
     for m in range(count):
         i = rw.who[m]
         take_pose(work.poses[i], pose)
-        push_by_race(m, pose, side, radius[i], turn, rw, pair, mode, work.sums)
+        race_wrench(m, pose, side, radius[i], turn, rw, pair, mode, work.sums)
         add_to_ring(i, rw.partner[m, CENTRE], ring.b, d, mode)
         if mode >= REPORT:
             report_race(i, race, work.sums, fields(d.report))

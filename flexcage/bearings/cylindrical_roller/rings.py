@@ -27,7 +27,7 @@ def _section(b: RollerBearing, ring: str, seat: float) -> RingSection:
     half, end = 0.5 * b.width, 0.5 * b.effective_length
     race = 0.5 * (b.outer_race_diameter if ring == "outer" else b.inner_race_diameter)
     side = 1.0 if ring == "outer" else -1.0
-    left, right = _beside(b, ring, -1.0, race), _beside(b, ring, 1.0, race)
+    left, right = _end_outline(b, ring, -1.0, race), _end_outline(b, ring, 1.0, race)
     outline = [*left, (-end, race), (end, race), *right[::-1], (half, seat), (-half, seat)]
     names = [""] * len(outline)
     names[len(left)], names[-2] = "race", "seat"
@@ -39,7 +39,9 @@ def _section(b: RollerBearing, ring: str, seat: float) -> RingSection:
     )
 
 
-def _beside(b: RollerBearing, ring: str, side: float, race: float) -> list[tuple[float, float]]:
+def _end_outline(
+    b: RollerBearing, ring: str, side: float, race: float
+) -> list[tuple[float, float]]:
     """From a ring's end, at ``side`` of the middle, to the place where rollers press."""
     end, ribs = side * 0.5 * b.width, b.ribs(ring)
     if ribs is None or not ribs.sides[0 if side > 0.0 else 1]:

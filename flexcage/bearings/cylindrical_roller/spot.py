@@ -49,9 +49,9 @@ class RollerSpot:
 
     def dimensions(self, radius: float, effective: float, felt: float) -> np.ndarray:
         """Half of its angle, 0, its depth, the drop over the square of an angle, and half of the
-        angle over which its edges are felt, as ``contacts.uneven.sunk_at`` has them, of a roller of
-        a radius [m] on a race with which it has the ``effective`` one [m]; ``felt`` [m]: half of
-        that width."""
+        angle over which its edges are felt, as ``contacts.uneven.spall_depth`` has them, of a
+        roller of a radius [m] on a race with which it has the ``effective`` one [m]; ``felt`` [m]:
+        half of that width."""
         half = 0.5 * self.size
         depth = half**2 / (2.0 * radius) if self.kind == "flat" else self.depth
         bend = radius**2 / (2.0 * effective)

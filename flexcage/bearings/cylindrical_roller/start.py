@@ -36,11 +36,11 @@ from flexcage.system.layout import Layout
 from flexcage.system.newton import assemble, newton_step
 from flexcage.system.problem import BearingSystem
 from flexcage.system.ring import CLEARANCE
-from flexcage.system.rings.left_out import left_by_ribs
 from flexcage.system.rings.modes_data import standing
 from flexcage.system.rings.moving import MovingRings, held_rings
+from flexcage.system.rings.neglected import neglected_at_ribs
 from flexcage.system.rings.sections import lands_follow
-from flexcage.system.start import made_room
+from flexcage.system.start import clear_of_land
 
 _SMALL = 1e-7  # of the load: where an equilibrium is accepted
 _BALANCED = 1e-6  # of the load: what may stay unbalanced at last
@@ -235,13 +235,13 @@ def _not_assembled(
     """What is to blame for a pocket's ``force`` beyond ``limit`` [N] at a share of the defects."""
     model = bearing.data.model
     beyond = f"{force:,.0f} N, more than limits.assembly_force ({limit:,.0f} N)"
-    room = pocket_clearance(model, 0.0 * model.pocket.offset).min(axis=1)
-    if room.min() < -TOUCH:
-        roller = int(room.argmin())
+    clearance = pocket_clearance(model, 0.0 * model.pocket.offset).min(axis=1)
+    if clearance.min() < -TOUCH:
+        roller = int(clearance.argmin())
         return InputError(
-            f"roller {roller} is {-1e3 * room[roller]:.3g} mm larger than its pocket, without any "
-            f"defect, and is pinched with {beyond}; make bearing.roller_scatter smaller, or the "
-            "pocket larger",
+            f"roller {roller} is {-1e3 * clearance[roller]:.3g} mm larger than its pocket, without "
+            f"any defect, and is pinched with {beyond}; make bearing.roller_scatter smaller, or "
+            "the pocket larger",
             where="bearing.roller_scatter",
             value=force,
         )
@@ -374,7 +374,7 @@ def _assemble(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np.nd
     """Bring y to equilibrium, with the cage out of the way of its land's ring; the residual."""
     model, layout = system.bearing.data.model, system.bearing.layout
     residual = _equilibrate(system, y, yd, tight)
-    if made_room(model.land, layout, y):
+    if clear_of_land(model.land, layout, y):
         residual = _equilibrate(system, y, yd, tight)
         if not tight.any():
             squeezed = np.abs(layout.u(system.residual(y, yd))["cage"]).max()  # by its pockets
@@ -485,14 +485,14 @@ def roller_start_between_bent_rings(
     _Frictionless(held, model.pocket.offset).residual(start.y, start.yd)
     y = bearing.rings.begun(start.y, bearing.layout)
     bearing.layout.ring_forces(y)[:] = rings.force
-    told = (*start.warnings, *_left_by_ribs(bearing.rings, model))
-    return replace(start, y=y, warnings=told)
+    sentences = (*start.warnings, *_neglected_at_ribs(bearing.rings, model))
+    return replace(start, y=y, warnings=sentences)
 
 
-def _left_by_ribs(moving: MovingRings, model: RollerModel) -> Iterator[str]:
+def _neglected_at_ribs(moving: MovingRings, model: RollerModel) -> Iterator[str]:
     """Sentences on ribs that do not follow how their ring bends."""
     for side, ribs in ((INNER_RACE, model.rib), (OUTER_RACE, model.outer_rib)):
         if ribs.first < ribs.end:
             height = float(model.bodies.radius.mean() - np.abs(ribs.points[:, 0]).min())
             play = 2.0 * (ribs.half_gap - ribs.half_roller)
-            yield from left_by_ribs(moving, side, height, play)
+            yield from neglected_at_ribs(moving, side, height, play)

@@ -153,7 +153,7 @@ class CrownCage(BallCage):
         if self.pocket_scatter > 0.0:
             yield "pocket_scatter", "is of machined cages; a crown cage has its pockets evenly"
 
-    def no_room(self, bearing: HeldElements) -> Iterator[Objection]:
+    def obstructions(self, bearing: HeldElements) -> Iterator[Objection]:
         yield from self._tight(bearing)
         if not self.throat < bearing.element_diameter:
             size = describe(bearing.element_diameter, "mm")
@@ -162,10 +162,10 @@ class CrownCage(BallCage):
                 f"so the balls fall out; it must be less than the ball's diameter, {size}",
             )
         yield from self._low_rim(bearing.pitch_diameter)
-        yield from self._meeting(bearing.pitch_diameter * sin(pi / bearing.element_count))
+        yield from self._touching_claws(bearing.pitch_diameter * sin(pi / bearing.element_count))
         yield from self._over_shoulders(bearing)
 
-    def _meeting(self, chord: float) -> Iterator[Objection]:
+    def _touching_claws(self, chord: float) -> Iterator[Objection]:
         """Claws of neighbouring pockets that meet; ``chord`` [m] is between balls' centres."""
         gap = chord - 2.0 * self.root_centre[1]
         if gap > 0.0:

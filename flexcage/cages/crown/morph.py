@@ -25,7 +25,7 @@ _LEVELS = 40  # steps, each of which gains a digit or nearly
 _REACH = 0.8  # of the thinner one of claw and ring: how deep a worn wall draws the mesh along
 
 
-def _beside(points: np.ndarray, pocket: int, sign: float, count: int) -> np.ndarray:
+def _on_side(points: np.ndarray, pocket: int, sign: float, count: int) -> np.ndarray:
     """Which of the points (n, 3) lie in the half of a sector in front of its pocket's middle
     (``sign`` 1) or behind it (-1)."""
     _, y, t = in_pocket_frame(points, pocket, count).T
@@ -39,7 +39,7 @@ def _cells_of_claw(
     """Which cells (n, .) belong to a claw."""
     middles = mesh.points[cells].mean(axis=1)
     above = middles[:, 0] > cage.bar_height
-    return above & _beside(middles, pocket, sign, mesh.pocket_count)
+    return above & _on_side(middles, pocket, sign, mesh.pocket_count)
 
 
 def bent_share(x: np.ndarray, cage: CrownCage) -> np.ndarray:
@@ -53,7 +53,7 @@ def bend_claw(
 ) -> CageMesh:
     """A mesh with a claw bent away from its ball by the deflection [m] of its tip."""
     count, points = mesh.pocket_count, np.array(mesh.points)
-    own = _beside(points, pocket, sign, count) & (points[:, 0] > cage.bar_height)
+    own = _on_side(points, pocket, sign, count) & (points[:, 0] > cage.bar_height)
     step = sign * deflection * bent_share(points[own, 0], cage)
     way = np.array([0.0, 0.0, 1.0]) @ turn_about_x(2.0 * pi * pocket / count).T
     points[own] += step[:, None] * way
@@ -64,8 +64,8 @@ def tip_place(mesh: CageMesh, cage: CrownCage, pocket: int, sign: float) -> floa
     """Mean distance [m] of a tip's vertices from the pocket's middle plane less that of the sound
     tip; zero where there is none."""
     tips = mesh.points[np.unique(mesh.groups["end+x"])]
-    own = tips[_beside(tips, pocket, sign, mesh.pocket_count)]
-    other = tips[_beside(tips, pocket, -sign, mesh.pocket_count)]
+    own = tips[_on_side(tips, pocket, sign, mesh.pocket_count)]
+    other = tips[_on_side(tips, pocket, -sign, mesh.pocket_count)]
     if not len(own) or len(own) != len(other):
         return 0.0
     middles = [
@@ -149,7 +149,7 @@ def crack_claw(
 
 def _doubled(points: np.ndarray, pocket: int, sign: float, count: int) -> np.ndarray:
     """Vertices (n,) beside a pocket that lie on another one."""
-    own = np.flatnonzero(_beside(points, pocket, sign, count))
+    own = np.flatnonzero(_on_side(points, pocket, sign, count))
     _, number, times = np.unique(
         np.round(points[own], 12), axis=0, return_inverse=True, return_counts=True
     )
@@ -193,7 +193,7 @@ def without_claw(mesh: CageMesh, cage: CrownCage, pocket: int, sign: float) -> C
 
 def missing_height(mesh: CageMesh, cage: CrownCage, pocket: int, sign: float) -> float:
     """How much lower [m] than tips the mesh ends beside a pocket."""
-    own = mesh.points[_beside(mesh.points, pocket, sign, mesh.pocket_count)]
+    own = mesh.points[_on_side(mesh.points, pocket, sign, mesh.pocket_count)]
     return cage.tip - float(own[:, 0].max())
 
 
@@ -205,7 +205,7 @@ def doubled_line(points: np.ndarray, count: int, pocket: int, sign: float) -> li
 
 def broken_line(points: np.ndarray, count: int, pocket: int, sign: float) -> list[CageLine]:
     """The edge of bar and broken claw on the cage's outside."""
-    own = points[_beside(points, pocket, sign, count)]
+    own = points[_on_side(points, pocket, sign, count)]
     top = own[own[:, 0] > own[:, 0].max() - _TINY * np.ptp(points[:, 0])]
     return _line(top, pocket, count, inner=False)
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from flexcage.cages.crown.cage import CrownCage
 from flexcage.core.errors import InputError
-from flexcage.geometry.inside import ProposedCage, rounded
+from flexcage.geometry.inference import ProposedCage, rounded
 
 # over the ball's diameter
 _CLEARANCE, _MOST_CLEARANCE = 0.03, 0.3e-3  # of a pocket; and at most [m]

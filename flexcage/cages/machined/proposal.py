@@ -6,7 +6,7 @@ from math import pi, sin
 from typing import Any
 
 from flexcage.cages.round_pocket.cage import BallCage
-from flexcage.geometry.inside import ProposedCage, rounded
+from flexcage.geometry.inference import ProposedCage, rounded
 
 # over the ball's diameter
 _CLEARANCE, _MOST_CLEARANCE = 0.03, 0.3e-3  # of a pocket; and at most [m]

@@ -119,10 +119,10 @@ class RibbonCage(BallCage):
     def parts(self, pitch_diameter: float, pocket_count: int) -> dict[str, float]:
         found = {"sheet": self.thickness, "wall": 0.5 * (self.outside_diameter - self.bore)}
         if self.opening:
-            found["necks beside the pockets"] = self._beside(pitch_diameter) - self.opening
+            found["necks beside the pockets"] = self._neck_reach(pitch_diameter) - self.opening
         return found
 
-    def _beside(self, pitch_diameter: float) -> float:
+    def _neck_reach(self, pitch_diameter: float) -> float:
         """From the circle of the balls' centres to the strip's further edge [m]."""
         inner, outer, pitch = self.bore, self.outside_diameter, pitch_diameter
         return 0.5 * max(outer - pitch, pitch - inner)
@@ -149,12 +149,12 @@ class RibbonCage(BallCage):
         if self.pocket_scatter > 0.0:
             yield "pocket_scatter", "is of machined cages; a ribbon cage has its pockets evenly"
 
-    def no_room(self, bearing: HeldElements) -> Iterator[Objection]:
+    def obstructions(self, bearing: HeldElements) -> Iterator[Objection]:
         pitch_diameter, pocket_count = bearing.pitch_diameter, bearing.element_count
         yield from self._tight(bearing)
         yield from self._low_rim(pitch_diameter)
         inner, outer = 0.5 * self.bore, 0.5 * self.outside_diameter
-        left = self._beside(pitch_diameter) - _LEAST_NECK * self.thickness
+        left = self._neck_reach(pitch_diameter) - _LEAST_NECK * self.thickness
         if not self.opening < left:
             least = 2.0 * sqrt(max(0.25 * self.pocket_diameter**2 - left**2, 0.0))
             yield (
@@ -171,10 +171,10 @@ class RibbonCage(BallCage):
                 "bends or rivets smaller",
             )
         broad, head = outer - inner, 2.0 * self.head_radius
-        room = min(broad, pitch_diameter * sin(pi / pocket_count) - self.pocket_diameter)
-        if not head < room:
+        available = min(broad, pitch_diameter * sin(pi / pocket_count) - self.pocket_diameter)
+        if not head < available:
             yield (
                 "rivet_diameter",
                 f"so its head is {describe(head, 'mm')} across, but the sheet between pockets has "
-                f"{describe(room, 'mm')} for it",
+                f"{describe(available, 'mm')} for it",
             )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from flexcage.cages.ribbon.cage import RibbonCage
-from flexcage.geometry.inside import ProposedCage, rounded
+from flexcage.geometry.inference import ProposedCage, rounded
 
 # over the ball's diameter
 _POCKET, _SHEET, _RIVET = 1.05, 0.1, 0.15

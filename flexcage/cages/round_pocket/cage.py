@@ -106,7 +106,7 @@ class BallCage(Cage):
                 f"than {describe(chord, 'mm')}",
             )
 
-    def no_room(self, bearing: HeldElements) -> Iterator[Objection]:
+    def obstructions(self, bearing: HeldElements) -> Iterator[Objection]:
         yield from self._tight(bearing)
         yield from self._low_rim(bearing.pitch_diameter)
         chord = bearing.pitch_diameter * sin(pi / bearing.element_count)

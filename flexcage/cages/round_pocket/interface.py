@@ -172,8 +172,8 @@ def wall_weights(
 def station_hats(angles: np.ndarray, count: int) -> np.ndarray:
     """Periodic hat functions (count, n) of evenly spaced stations; they sum to one."""
     place = angles * count / (2.0 * np.pi)
-    apart = (place[None] - np.arange(count)[:, None] + 0.5 * count) % count - 0.5 * count
-    return np.maximum(1.0 - np.abs(apart), 0.0)
+    difference = (place[None] - np.arange(count)[:, None] + 0.5 * count) % count - 0.5 * count
+    return np.maximum(1.0 - np.abs(difference), 0.0)
 
 
 def _modes_at_stations(

@@ -73,8 +73,8 @@ def move_walls(
         return mesh.points
     azimuth = np.arctan2(mesh.points[:, 2], mesh.points[:, 1])
     step = 2.0 * pi / count
-    apart = (azimuth[:, None] - step * altered + pi) % (2.0 * pi) - pi
-    far = np.abs(apart).min(axis=1) > 1.5 * step * (1.0 - 1e-9)
+    difference = (azimuth[:, None] - step * altered + pi) % (2.0 * pi) - pi
+    far = np.abs(difference).min(axis=1) > 1.5 * step * (1.0 - 1e-9)
     held = np.column_stack([far, far])  # axial, angular
     for name in ("end+x", "end-x"):
         held[np.unique(mesh.groups[name]), 0] = True

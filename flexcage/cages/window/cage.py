@@ -96,7 +96,7 @@ class WindowCage(Cage):
                 f"is a sharp corner; it must be at least {mm(2.0 * _SHARPEST * half)}",
             )
 
-    def no_room(self, bearing: HeldElements) -> Iterator[Objection]:
+    def obstructions(self, bearing: HeldElements) -> Iterator[Objection]:
         for name, size, own, what in (
             ("pocket_width", self.pocket_width, bearing.element_diameter, "diameter"),
             ("pocket_length", self.pocket_length, bearing.element_length, "length"),

@@ -332,9 +332,9 @@ def _check_sizes(defects: Sequence[WindowDefect], cage: WindowCage, pocket_count
             )
 
 
-def _find_repeated(told: Iterable[str]) -> Iterator[Finding]:
+def _find_repeated(names: Iterable[str]) -> Iterator[Finding]:
     """A beam that is displaced more than once in one way."""
-    for what, times in Counter(told).items():
+    for what, times in Counter(names).items():
         if times > 1:
             yield "defects", f"{what} {times} times; give one defect with its displacement.", times
 

@@ -144,9 +144,9 @@ def _residual_at_stations(
 
     Vectors that the basis lacks are zero: quadratic ones with linear attachments.
     """
-    room = LOADS_PER_POCKET
-    at_stations = np.zeros((pocket_count, len(FACES), n_stations, room))
-    compliance = np.zeros((pocket_count, room, room))
+    loads = LOADS_PER_POCKET
+    at_stations = np.zeros((pocket_count, len(FACES), n_stations, loads))
+    compliance = np.zeros((pocket_count, loads, loads))
     if basis.residual is None:
         return at_stations, compliance
     shapes = basis.residual.shapes

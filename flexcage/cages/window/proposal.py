@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from flexcage.cages.window.cage import WindowCage
-from flexcage.geometry.inside import ProposedCage, rounded
+from flexcage.geometry.inference import ProposedCage, rounded
 
 _AROUND, _ALONG = 0.2e-3, 0.25e-3  # m, clearances of a pocket
 _TO_RIBS = 0.25e-3  # m, radially

@@ -192,8 +192,8 @@ def _part_corners(points: np.ndarray, boundary: np.ndarray, groups: dict[str, np
     normal = np.cross(b - a, c - a)
     normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
     for i in np.flatnonzero(masks.sum(axis=0) > 1):
-        beside = alone & (np.isin(boundary, boundary[i]).sum(axis=1) == 2)
-        flat = [(normal[beside & m] @ normal[i]).max(initial=-1.0) for m in masks]
+        neighbours = alone & (np.isin(boundary, boundary[i]).sum(axis=1) == 2)
+        flat = [(normal[neighbours & m] @ normal[i]).max(initial=-1.0) for m in masks]
         for name, level in zip(mine, flat):
             groups[name][i] &= level == max(flat)
 

@@ -51,10 +51,10 @@ _MESHES = {
 
 def no_mesh(path: Path, readable: str) -> str:
     """A sentence without its full stop on a file whose ending is not read as a mesh."""
-    return told(path, _MESHES, f"is no mesh file that can be read: {readable}")
+    return known_reason(path, _MESHES, f"is no mesh file that can be read: {readable}")
 
 
-def told(path: Path, known: Mapping[str, str], otherwise: str) -> str:
+def known_reason(path: Path, known: Mapping[str, str], otherwise: str) -> str:
     """What is ``known`` of a file's ending, with the file's name in it, or ``otherwise``."""
     what = known.get(path.suffix.lower(), otherwise)
     return f"{path} {what.format(path=path, stem=path.with_suffix(''))}"

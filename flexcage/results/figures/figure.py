@@ -3,7 +3,7 @@
 A section of a summary is a ``FigureTable``; one call adds a figure::
 
     SPEEDS.add("tilt_max", "Cage tilt, largest", "deg", "largest such angle", "a cage",
-               take=lambda part: float(part.lean.max()))
+               take=lambda part: float(part.tilt.max()))
 
 The function takes what the section's figures have in common, its facts, and gives the value in SI,
 or a ``Found`` that says more.

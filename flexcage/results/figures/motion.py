@@ -41,6 +41,6 @@ MOTION.add("velocity_deviation_2khz", "Centre's speed, slow ripple", "%",
                                    f"the same, low-passed at {LOW_PASS / 1000.0:g} kHz"))
 MOTION.add("tilt_mean", "Cage tilt, mean", "deg",
            "angle between the cage's axis and the bearing's", "statistic",
-           take=lambda part: part.windows.mean(part.lean))
+           take=lambda part: part.windows.mean(part.tilt))
 MOTION.add("tilt_max", "Cage tilt, largest", "deg", "largest such angle",
-           take=lambda part: float(part.lean.max()))
+           take=lambda part: float(part.tilt.max()))

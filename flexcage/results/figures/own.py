@@ -62,7 +62,7 @@ def register_figure(
     for name, text in (("title", title), ("meaning", meaning)):
         if not isinstance(text, str) or not text.strip():
             raise _wrong(key, f"has the {name} {text!r}, but should have words")
-    given = _known(key, {marks} if isinstance(marks, str) else set(marks))
+    given = _checked_marks(key, {marks} if isinstance(marks, str) else set(marks))
     try:
         inspect.signature(take).bind(None)
     except (TypeError, ValueError) as error:
@@ -83,7 +83,7 @@ def _check_free(key: str, title: str) -> None:
             raise _wrong(key, f"has the title '{title}', which is that of '{other.key}'")
 
 
-def _known(key: str, marks: set[str]) -> set[str]:
+def _checked_marks(key: str, marks: set[str]) -> set[str]:
     """These marks. InputError for one that is not known."""
     for mark in sorted(marks.difference(_NEEDS, _MARKS), key=str):
         hint = did_you_mean(str(mark), (*_NEEDS, *_MARKS), "choose from")
@@ -103,13 +103,13 @@ def own_figures() -> Mapping[str, Figure]:
 def own_rows(part: SettledRun) -> tuple[SummaryRow, ...]:
     """Their rows; the note of one without a value says why."""
     return tuple(
-        figure.row(_given(figure, part), **part.words)
+        figure.row(_value_of(figure, part), **part.words)
         for figure in own_figures().values()
         if figure.needs != part.lacks
     )
 
 
-def _given(figure: Figure, part: SettledRun) -> Given:
+def _value_of(figure: Figure, part: SettledRun) -> Given:
     """What a user's function gives, as a value that a row may have."""
     try:
         given = figure.take(part)

@@ -210,7 +210,7 @@ class SettledRun:
         return metrics.whirl(self.whole, about="axis")
 
     @cached_property
-    def lean(self) -> np.ndarray:
+    def tilt(self) -> np.ndarray:
         """Tilt of its axis (time,) [rad]."""
         return metrics.tilt(self.ds).sel(component="total").values
 

@@ -40,8 +40,8 @@ def _axial(part: SettledRun) -> Found:
 
 
 def _tilt(part: SettledRun) -> Found:
-    lean = tilt(part.ds, body="inner")
-    total, *parts = (lean.sel(component=c).values for c in lean["component"].values)
+    tilted = tilt(part.ds, body="inner")
+    total, *parts = (tilted.sel(component=c).values for c in tilted["component"].values)
     up, aside = (f"{1e3 * float(part.mean()):.4g}" for part in parts)
     note = f"of the axis, {up} mrad towards y and {aside} towards z" if total.any() else ""
     return Found(part.windows.mean(total), note, idle=not total.any())
@@ -86,8 +86,8 @@ def _outer_away(part: SettledRun) -> Found:
 
 
 def _outer_tilt(part: SettledRun) -> Found:
-    lean = tilt(part.ds, body="outer").sel(component="total").values
-    return Found(part.windows.mean(lean), idle=not lean.any())
+    tilted = tilt(part.ds, body="outer").sel(component="total").values
+    return Found(part.windows.mean(tilted), idle=not tilted.any())
 
 
 # fmt: off

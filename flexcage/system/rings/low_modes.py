@@ -159,7 +159,7 @@ def _below(ring: RingReduction, n: int, below: float) -> tuple[np.ndarray, np.nd
         count += _BATCH
 
 
-def left_over(ring: RingReduction, modes: LowModes) -> np.ndarray:
+def residual_compliance(ring: RingReduction, modes: LowModes) -> np.ndarray:
     """Compliance (N + 1, 3, 3) without that of modes."""
     return ring.compliance - modes.compliance(len(ring.compliance))
 
@@ -245,7 +245,7 @@ def modes_of_ring(
     if not len(seated.support):
         return modes_of(*own)
     ring, azimuth = seated.reduction, 2.0 * np.pi * np.arange(POINTS) / POINTS
-    n, rest = ring.harmonics, left_over(ring, modes)
+    n, rest = ring.harmonics, residual_compliance(ring, modes)
     # race and support: the whole, less what modes have of it with the race's extrapolated weight
     both = spectrum(n, ring.along)[:, None] * ring.compliance[:, _RACE, _SEAT]
     both -= np.sqrt(ring.weight)[:, None] * (ring.compliance - rest)[:, _RACE, _SEAT]

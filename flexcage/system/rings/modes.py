@@ -175,20 +175,20 @@ def _press(side, s, a, races, modes):
     """What supports do to the race and to its modes."""
     Z, press = races.moment.shape[1], modes.press
     w, moment = races.deflection[side], races.moment[side]
-    for k in range(press.shape[0]):
-        swung = 0.0
+    for k in range(press.shape[0]):  # y without p: chi a + B^T s
+        support_displacement = 0.0
         for m in range(a.shape[0]):
-            swung += modes.chi[k, m] * a[m]
-        modes.swung[k] = swung
-        entered = swung
+            support_displacement += modes.chi[k, m] * a[m]
+        modes.support_displacement[k] = support_displacement
+        entered = support_displacement
         for i in range(Z):
             x = (races.azimuth[side, i] - modes.azimuth[k]) * STEP
             whole = np.floor(x)
-            c = modes.beside[k, i]
+            c = modes.support_compliance[k, i]
             look_up(modes.table[modes.kind[k]], int(whole) & (POINTS - 1), x - whole, c)
             f = force_at(side, i, Z)
             entered += c[B1] * s[f] + c[B2] * s[f + 1]
-        modes.room[k] = entered
+        modes.free_penetration[k] = entered
     press_supports(modes)
     for k in range(press.shape[0]):
         p = press[k]
@@ -196,8 +196,8 @@ def _press(side, s, a, races, modes):
             continue
         for m in range(a.shape[0]):
             modes.push[m] -= modes.chi[k, m] * p
-        for i in range(Z):
-            c, f = modes.beside[k, i], force_at(side, i, Z)
+        for i in range(Z):  # w' = ... - B p
+            c, f = modes.support_compliance[k, i], force_at(side, i, Z)
             w[i, 0] -= p * c[B1]
             w[i, 1] -= p * c[B2]
             moment[i] -= p * (s[f] * c[SLOPE1] + s[f + 1] * c[SLOPE2])
@@ -252,7 +252,7 @@ def _on_frame(y, yd, at, ring, modes, by_mount, out):
     for c in range(RIGID):
         if by_mount and ring.free[c] == 0:
             continue
-        for m in range(modes.push.shape[0]):
+        for m in range(modes.push.shape[0]):  # L a'' + 2 W T a'
             out[at.u + c] += modes.coupling[c, m] * vd[m] + 2.0 * speed * modes.tilting[c, m] * v[m]
 
 
@@ -268,16 +268,16 @@ def _rows(y, yd, at, modes, gravity, out):
         for m in range(count):
             r_a[m], r_v[m] = ad[m], vd[m]
         return
-    for m in range(count):
+    for m in range(count):  # a'' by the module's equation, term by term
         load = modes.load[modes.harmonic[m], modes.quarter[m]]
         borne = modes.borne[modes.harmonic[m], modes.quarter[m]]
         force = modes.push[m] + modes.shape[m, 0] * load[0] + modes.shape[m, 1] * load[1]
         for c in range(modes.section.shape[1]):
             force += modes.section[m, c] * borne[c]
-        for l in range(count):
+        for l in range(count):  # -2 W P a'
             force -= 2.0 * speed * modes.turning[m, l] * v[l]
         force -= modes.stiffness[m] * (a[m] + modes.late[m] * v[m])
-        for c in range(RIGID):
+        for c in range(RIGID):  # -L^T (u' - g) + 2 W T^T u
             weight = gravity[c] if c < TURN else 0.0
             force -= modes.coupling[c, m] * (frame[c] - weight)
             force += 2.0 * speed * modes.tilting[c, m] * moves[c]
@@ -317,7 +317,7 @@ def _report(side, s, own, races, modes, gravity, rep):
         for c in range(2):
             rep.energy[STRAIN] -= 0.5 * s[f + c] * modes.moved[i, c]
     for k in range(modes.press.shape[0]):
-        rep.energy[STRAIN] += 0.5 * modes.press[k] * modes.swung[k]
+        rep.energy[STRAIN] += 0.5 * modes.press[k] * modes.support_displacement[k]
     if modes.press.shape[0] > 0:
         _lost_at_supports(side, s, v, races, modes, rep)
 
@@ -331,19 +331,19 @@ def _lost_at_supports(side, s, v, races, modes, rep):
         for m in range(v.shape[0]):
             step[k] += modes.chi[k, m] * v[m]
         for i in range(Z):
-            c, f, orbit = modes.beside[k, i], force_at(side, i, Z), modes.orbit[i]
+            c, f, orbit = modes.support_compliance[k, i], force_at(side, i, Z), modes.orbit[i]
             for p in range(2):
                 late = races.force[side, i, p] - s[f + p]
                 step[k] += c[p] * rate * late + c[SLOPE1 + p] * s[f + p] * orbit
     # the displacements' rates in, the forces' rates out
-    kept = modes.room
+    kept = modes.free_penetration
     for k in range(step.shape[0]):
         kept[k] = modes.press[k]
     solve_pressed(step, modes.press, modes)
     for k in range(step.shape[0]):
         step[k], modes.press[k] = modes.press[k], kept[k]
         for i in range(Z):
-            c, f, orbit = modes.beside[k, i], force_at(side, i, Z), modes.orbit[i]
+            c, f, orbit = modes.support_compliance[k, i], force_at(side, i, Z), modes.orbit[i]
             for p in range(2):
                 late = races.force[side, i, p] - s[f + p]
                 given = step[k] * c[p] + modes.press[k] * c[SLOPE1 + p] * orbit

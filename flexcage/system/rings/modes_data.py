@@ -43,9 +43,9 @@ class RingModes(NamedTuple):
     rate: np.ndarray  # (Z, 2) rate of the displacement, as an element feels it that orbits
     total: np.ndarray  # (Z, 2) of all contact forces on the race, friction too, at its ports
     push: np.ndarray  # (M,) forces of supports on modes
-    beside: np.ndarray  # (S, Z, 4) of the table
-    swung: np.ndarray  # (S,) displacement of supports by modes
-    room: np.ndarray  # (S,) what they would be entered by if none pressed
+    support_compliance: np.ndarray  # (S, Z, 4) B between supports and races, its slope (table)
+    support_displacement: np.ndarray  # (S,) displacement of supports by modes
+    free_penetration: np.ndarray  # (S,) what they would be entered by if none pressed
     press: np.ndarray  # (S,) forces on the ring, inwards
     kept: np.ndarray  # (S,) supports that press, those first
     bears: np.ndarray  # (S,) does it press?

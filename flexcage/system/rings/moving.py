@@ -12,9 +12,9 @@ from flexcage.modes.ring import natural_frequencies
 from flexcage.system.layout import Layout
 from flexcage.system.rings.low_modes import (
     Coordinates,
-    left_over,
     low_modes,
     modes_of_ring,
+    residual_compliance,
     ring_coordinates,
     ring_with_modes,
 )
@@ -84,7 +84,7 @@ def moving_rings(
     that is soft on its seat has modes; ``whole``: those in which it moves as a whole as well, as it
     does on a seat that stands, or is not lighter than itself (of inner, outer ring)?"""
     count = len(solution.elements.azimuth)
-    data, modes, told = rigid_rings(count), [no_modes(count), no_modes(count)], []
+    data, modes, sentences = rigid_rings(count), [no_modes(count), no_modes(count)], []
     found: list[Coordinates | None] = [None, None]
     for bent in solution.rings:
         side, reduction = SIDES.index(bent.side), bent.seated.reduction
@@ -94,22 +94,22 @@ def moving_rings(
             low = low_modes(reduction, least=least)
             made = found[side] = ring_coordinates(bent, low)
             modes[side] = modes_of_ring(bent.seated, low, made, spec.relaxation)
-            yields = left_over(reduction, low)
+            yields = residual_compliance(reduction, low)
         if not whole[side] and (lowest := _lowest(bent, range(_OVAL))) < _STIFF:
-            told.append(_moves_with_seat(bent.side, lowest))
+            sentences.append(_moves_with_seat(bent.side, lowest))
         _put(data, bent, yields, spec.relaxation)
-    return MovingRings(data, (modes[0], modes[1]), (found[0], found[1]), solution, tuple(told))
+    return MovingRings(data, (modes[0], modes[1]), (found[0], found[1]), solution, tuple(sentences))
 
 
 def _put(data: RacesData, bent: BentRing, yields: np.ndarray, relaxation: float) -> None:
     """A ring among the data, with a compliance (N + 1, 3, 3) that follows at once."""
     reduction, side = bent.seated.reduction, SIDES.index(bent.side)
     azimuth = 2.0 * np.pi * np.arange(POINTS) / POINTS
-    apart, slope = (
+    compliance, slope = (
         reduction.series(reduction.weight, yields[:, :2, :2], azimuth, slope=slope)
         for slope in (False, True)
     )
-    table, own = np.hstack([_entries(apart), _entries(slope)]), apart[:, :, 0]
+    table, own = np.hstack([_entries(compliance), _entries(slope)]), compliance[:, :, 0]
     near = data.near[side] = _reach(table, own, len(bent.azimuth))
     table[near + 1 : POINTS - near] = 0.0
     data.bends[side], data.table[side], data.own[side] = 1, table, _entries(own)

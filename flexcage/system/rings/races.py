@@ -102,7 +102,7 @@ def deflect_races(q, inner, outer, s, rings):
         zero(moment)
         rings.kept[side] = 0
         for i in range(Z):
-            k = force_at(side, i, Z)
+            k = force_at(side, i, Z)  # C(0) s_i, and what is given
             w[i, 0] = own[C11] * s[k] + own[C12] * s[k + 1] + given[i, 0]
             w[i, 1] = own[C12] * s[k] + own[C22] * s[k + 1] + given[i, 1]
         if rings.bends[side] != 0:
@@ -136,6 +136,7 @@ def _bend_between(s, rings, side):
             rings.pair[side, at, 0], rings.pair[side, at, 1] = i, j
             at += 1
             look_up(rings.table[side], k, x - whole, c)
+            # w_i += C(psi_i - psi_j) s_j and the other way round; moment s_i C' s_j
             w[i, 0] += c[C11] * s[b] + c[C12] * s[b + 1]
             w[i, 1] += c[C12] * s[b] + c[C22] * s[b + 1]
             w[j, 0] += c[C11] * s[a] + c[C12] * s[a + 1]
@@ -201,8 +202,8 @@ def after(force, slope, step):
 @part
 def close(taken, force):
     """Is a ``force`` on the ports near the one ``taken``? Then one step more is enough."""
-    apart = abs(force[0] - taken[0]) + abs(force[1] - taken[1])
-    return apart < NEAR * (abs(force[0]) + abs(force[1]))
+    error = abs(force[0] - taken[0]) + abs(force[1] - taken[1])
+    return error < NEAR * (abs(force[0]) + abs(force[1]))
 
 
 @part

@@ -35,7 +35,7 @@ def carry_ribs(i, at, modes):
     carried, wall = modes.carried, modes.wall
     if carried.shape[0] == 0:
         return
-    for c in range(wall.shape[1]):
+    for c in range(wall.shape[1]):  # sums of the waves at the roller's azimuth
         moved = slope = moves = 0.0
         for n in range(carried.shape[0]):
             cos_n, sin_n = modes.wave[i, n, COSINE], modes.wave[i, n, SINE]
@@ -61,6 +61,7 @@ def bear_ribs(i, centre, wrench, modes, moment):
     borne, wall = modes.borne, modes.wall
     if modes.carried.shape[0] == 0:
         return
+    # the reaction on the ring, with its moment about the ring's centre
     along, out = -wrench[0], -wrench[1]
     tilt = -(wrench[MOMENT + 2] + centre[0] * wrench[1] - centre[1] * wrench[0])
     for n in range(borne.shape[0]):

@@ -1,7 +1,7 @@
 """Forces of supports that hold a ring here and there, in kernels.
 
 Supports press on the ring and are not entered, or hold it both ways: see ``modes``, whose
-``RingModes`` have their compliance and room to work.
+``RingModes`` have their compliance and space to work.
 """
 
 from __future__ import annotations
@@ -16,21 +16,22 @@ _CLOSE = 1e-12  # of the largest displacement, by which a support may be entered
 
 @kernel
 def press_supports(modes):
-    """Forces ``press`` of the supports that would be entered by ``room``.
+    """Forces ``press`` of the supports that would be entered by ``free_penetration``.
 
     Of supports that only press this is a linear complementarity problem with a positive definite
     matrix, which has one solution: supports that pull or are entered change sides, all at once as
     long as that helps, else the last of them, which ends (J. J. Judice and F. M. Pires, Computers
     and Operations Research 21 (1994) 587; K. G. Murty, Opsearch 11 (1974) 9).
     """
-    count, room, press, bears = modes.room.shape[0], modes.room, modes.press, modes.bears
+    free, press, bears = modes.free_penetration, modes.press, modes.bears
+    count = free.shape[0]
     largest = 0.0
     for k in range(count):
-        largest = max(largest, abs(room[k]))
-        bears[k] = 1 if modes.holds != 0 or room[k] > 0.0 else 0
+        largest = max(largest, abs(free[k]))
+        bears[k] = 1 if modes.holds != 0 or free[k] > 0.0 else 0
     least, tries = count + 1, _TRIES
     for _ in range(10 * count + 10):
-        solve_pressed(room, press, modes)
+        solve_pressed(free, press, modes)
         if modes.holds != 0:
             return
         wrong, last = 0, 0
@@ -53,17 +54,17 @@ def _amiss(k, close, modes):
     """Positive if support k pulls, or is entered."""
     if modes.bears[k] != 0:
         return -modes.press[k]
-    entered = modes.room[k] - close
+    entered = modes.free_penetration[k] - close
     for l in range(modes.press.shape[0]):
         entered -= modes.between[k, l] * modes.press[l]
     return entered
 
 
 @kernel
-def solve_pressed(room, press, modes):
+def solve_pressed(free, press, modes):
     """Forces of the supports that bear, which are not entered; those of the others are none."""
     kept, L, n = modes.kept, modes.factor, 0
-    for k in range(room.shape[0]):
+    for k in range(free.shape[0]):
         press[k] = 0.0
         if modes.bears[k] != 0:
             kept[n] = k
@@ -75,7 +76,7 @@ def solve_pressed(room, press, modes):
                 x -= L[r, l] * L[c, l]
             L[r, c] = sqrt(x) if r == c else x / L[c, c]
     for r in range(n):
-        x = room[kept[r]]
+        x = free[kept[r]]
         for l in range(r):
             x -= L[r, l] * press[kept[l]]
         press[kept[r]] = x / L[r, r]

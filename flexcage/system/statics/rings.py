@@ -97,8 +97,8 @@ class SeatedRing:
     @cached_property
     def race(self) -> np.ndarray:
         """Compliance (2 Z, 2 Z) between elements, supports left out."""
-        apart = self.azimuth[:, None] - self.azimuth
-        whole = self.reduction.between(apart)
+        difference = self.azimuth[:, None] - self.azimuth
+        whole = self.reduction.between(difference)
         own = np.arange(len(self.azimuth))
         whole[:, :, own, own] = self.reduction.local[:, :, None]
         return whole.transpose(2, 0, 3, 1).reshape(self._ports, self._ports)
@@ -115,20 +115,20 @@ class SeatedRing:
         whole[:count, :count] = r.between_supports(self.support, self.width, c[:, 2, 2])
         whole[:count, count:] = r.rigid[2] * _radial(self.support)
         whole[count:, :count] = whole[:count, count:].T
-        beside = np.empty((len(self.azimuth), 2, count + 2))
-        beside[..., :count] = np.einsum(
+        cross = np.empty((len(self.azimuth), 2, count + 2))
+        cross[..., :count] = np.einsum(
             "ns,n,ni,nzs->zis", on_seat, on_race, c[:, :2, 2], across, optimize=True
         )
         moved = np.multiply.outer(_radial(self.azimuth), r.rigid[:2] * on_race[1])
-        beside[..., count:] = moved.transpose(0, 2, 1)
-        return whole, beside.reshape(self._ports, count + 2)
+        cross[..., count:] = moved.transpose(0, 2, 1)
+        return whole, cross.reshape(self._ports, count + 2)
 
     def compliance(self, bears: np.ndarray) -> np.ndarray:
         """Compliance (2 Z, 2 Z) between elements where supports ``bears`` (S,) hold the ring."""
         if not len(self.support):
             return self.race
-        whole, beside = self._kept(bears)
-        return self.race - beside @ np.linalg.solve(whole, beside.T)
+        whole, cross = self._kept(bears)
+        return self.race - cross @ np.linalg.solve(whole, cross.T)
 
     def supported(self, force: np.ndarray, bears: np.ndarray) -> np.ndarray:
         """Radial forces (S,) with which supports press on the ring, inwards, under forces (Z, 2) on
@@ -143,15 +143,15 @@ class SeatedRing:
 
     def _answer(self, force: np.ndarray, bears: np.ndarray) -> np.ndarray:
         """Forces of the supports that bear, and the ring's translation."""
-        whole, beside = self._kept(bears)
-        return -np.linalg.solve(whole, beside.T @ force.ravel())
+        whole, cross = self._kept(bears)
+        return -np.linalg.solve(whole, cross.T @ force.ravel())
 
     def _kept(self, bears: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         keep = np.append(bears, [True, True])
-        whole, beside = self.bordered
+        whole, cross = self.bordered
         if np.linalg.matrix_rank(_radial(self.support[bears]), tol=1e-6) < 2:
             raise self.flies()
-        return whole[np.ix_(keep, keep)], beside[:, keep]
+        return whole[np.ix_(keep, keep)], cross[:, keep]
 
     def flies(self) -> InputError:
         """The error of a ring whose supports do not hold it."""
@@ -355,8 +355,8 @@ def _that_bear(ring: SeatedRing, force: np.ndarray, bears: np.ndarray) -> np.nda
     """
     if not ring.presses_only:
         return bears
-    whole, beside = ring.bordered
-    count, driven = len(bears), beside.T @ force.ravel()
+    whole, cross = ring.bordered
+    count, driven = len(bears), cross.T @ force.ravel()
     root = np.linalg.cholesky(whole[:count, :count])
     balance = whole[count:, :count]
     heavy = _HEAVY * np.linalg.norm(root) / np.linalg.norm(balance)

@@ -43,10 +43,10 @@ def questioned(mount: Mount, bearing: Bearing, seat: np.ndarray | None) -> tuple
     """A sentence on a housing's seat that is hardly meant; none for a usual one, or no housing."""
     if seat is None or not mount.body:
         return ()
-    from flexcage.system.seat import odd_seat
+    from flexcage.system.seat import implausible_seat
 
     modulus = bearing.material.youngs_modulus
-    said = odd_seat(seat, mount, modulus=modulus, width=bearing.width)
+    said = implausible_seat(seat, mount, modulus=modulus, width=bearing.width)
     return (said,) if said else ()
 
 

@@ -36,7 +36,7 @@ LAST_DIGIT = Tolerance(
 CATALOGUE = Tolerance(0.01, "makers round ratings to two or three digits")
 
 
-def inside(bearing: Any, *, gamma: float, inner: float, outer: float) -> Any:
+def with_geometry(bearing: Any, *, gamma: float, inner: float, outer: float) -> Any:
     """A bearing of other conformities, and of another pitch diameter for D cos(alpha)/Dpw."""
     ball = bearing.ball_diameter
     return replace(
@@ -48,7 +48,7 @@ def inside(bearing: Any, *, gamma: float, inner: float, outer: float) -> Any:
 def thrust(angle: float, gamma: float, conformity: float) -> Any:
     """A thrust bearing with a contact angle [deg], not less than 45."""
     steep = replace(preset("7010C-PI"), contact_angle=max(radians(angle), THRUST))
-    return inside(steep, gamma=gamma, inner=conformity, outer=conformity)
+    return with_geometry(steep, gamma=gamma, inner=conformity, outer=conformity)
 
 
 def f_0(bearing: Any) -> float:
@@ -67,7 +67,7 @@ def f_c(bearing: Any) -> float:
 
 def rows() -> Iterator[Row]:
     for gamma, expected in RADIAL_FC.items():
-        found = f_c(inside(deep_groove(0.0), gamma=gamma, inner=0.52, outer=0.53))
+        found = f_c(with_geometry(deep_groove(0.0), gamma=gamma, inner=0.52, outer=0.53))
         yield Row(f"f_c at D cos(a)/Dpw = {gamma:.2f}", "", expected, found, LAST_DIGIT)
     for angle, column in THRUST_FC.items():
         for k, expected in enumerate(column):
@@ -75,7 +75,7 @@ def rows() -> Iterator[Row]:
             found = f_c(thrust(angle, gamma, 0.535))
             yield Row(f"f_c, thrust, {angle} deg, {gamma:.2f}", "", expected, found, LAST_DIGIT)
     for gamma, expected in RADIAL_F0.items():
-        found = f_0(inside(deep_groove(0.0), gamma=gamma or FLAT, inner=0.52, outer=0.53))
+        found = f_0(with_geometry(deep_groove(0.0), gamma=gamma or FLAT, inner=0.52, outer=0.53))
         yield Row(f"f_0 at D cos(a)/Dpw = {gamma:.2f}", "", expected, found, LAST_DIGIT)
     for gamma, expected in THRUST_F0.items():
         found = f_0(thrust(60.0, gamma or FLAT, 0.54))

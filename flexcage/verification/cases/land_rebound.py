@@ -37,7 +37,7 @@ def rebounds(ds: Any) -> list[float]:
     """Speed after over before along every blow on the lands in which nothing else is touched."""
     force = ds["land_force"].values[:, 1:]
     others = ds["race_force"].max(("element", "race")) + ds["pocket_force"].max(("pocket", "face"))
-    apart = (ds["cage_velocity"] - ds["inner_velocity"]).values[:, 1:]
+    velocity = (ds["cage_velocity"] - ds["inner_velocity"]).values[:, 1:]
     touching = np.flatnonzero(force.any(axis=1))
     found = []
     for blow in np.split(touching, np.flatnonzero(np.diff(touching) > 1) + 1):
@@ -45,7 +45,7 @@ def rebounds(ds: Any) -> list[float]:
             continue
         before, after = blow[0] - 2, min(blow[-1] + 2, len(force) - 1)
         along = force[blow].sum(axis=0)
-        speed = apart @ along / np.linalg.norm(along)
+        speed = velocity @ along / np.linalg.norm(along)
         if others[before : after + 1].max() == 0.0 and abs(speed[before]) > 0.05:
             found.append(float(-speed[after] / speed[before]))
     return found

@@ -1,6 +1,0 @@
-"""Reduced bodies from elsewhere, and to elsewhere: one value, its formats, its checks."""
-
-from flexcage.modes.door.body import ReducedBody
-from flexcage.modes.door.formats import read_body, write_body
-
-__all__ = ["ReducedBody", "read_body", "write_body"]
