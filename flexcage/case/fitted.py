@@ -23,7 +23,7 @@ B = TypeVar("B", bound=Bearing)
 def mounting_of(bearing: Bearing, fit: Fit, drive: Drive) -> Mounting:
     """Clearance of a bearing from before mounting to operation. Raises InputError for a class or a
     code that there is not, and materials whose expansion is not known."""
-    speed = fastest(drive) if fit.speed is None else abs(fit.speed)
+    speed = fastest(drive) if fit.at_speed is None else abs(fit.at_speed)
     found = mount(bearing, fit, _initial(bearing, fit), _walls(bearing), speed)
     after = bearing.in_place(found.changed)
     approach = bearing.approach(after) if found.operating > 0.0 else None

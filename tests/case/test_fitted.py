@@ -153,7 +153,7 @@ def test_limits_of_the_tolerances_are_cases():
 def test_speed_is_the_fastest_of_the_drive():
     case = worked()
     ramp = case.replace({"drive.ramp_to": "20000 rpm", "drive.ramp_time": "10 ms"})
-    own = case.replace("fit.speed", "20000 rpm")
+    own = case.replace("fit.at_speed", "20000 rpm")
     assert values(ramp, "centrifugal") == values(own, "centrifugal") < values(case, "centrifugal")
 
 

@@ -263,7 +263,7 @@ def test_parts_add_up():
     found = parts(
         mounted(
             shaft="m6", housing="N7", inner_temperature=350.0, shaft_temperature=360.0,
-            outer_temperature=330.0, housing_temperature=320.0, speed=None, smoothing="roughness",
+            outer_temperature=330.0, housing_temperature=320.0, smoothing="roughness",
         )
     )  # fmt: skip
     last = found.pop("operating")

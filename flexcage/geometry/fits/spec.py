@@ -94,7 +94,7 @@ class Fit:
     housing_temperature: float | None = quantity(
         "degC", None, doc="of the housing (default: the outer ring's)", above=0.0
     )
-    speed: float | None = quantity(
+    at_speed: float | None = quantity(
         "rpm", None, doc="speed at which inner ring and shaft grow (default: the fastest of "
         "[drive])",
     )  # fmt: skip
