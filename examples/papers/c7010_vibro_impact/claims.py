@@ -80,7 +80,7 @@ CLAIMS = (
         change=0.5,
     ),
     Claim(
-        "004-2", "The orbit is chaotic at 4000 rpm and has a circular boundary beyond 10,000 rpm",
+        "004-2", "The orbit is chaotic at the lowest speed, circular in boundary at the highest",
         "Figure 7",
         {
             "chaotic at 4000": Within("line", SPEEDS[:1], high=REGULAR),
@@ -107,8 +107,8 @@ CLAIMS = (
         {"rises": Trend("one_peak", LOADS), "zeros grow": Trend("gaps", LOADS)}, change=0.5,
     ),
     Claim(
-        "004-4", "At 5000 N the orbit is regular; up to 12,500 N it becomes chaotic and the "
-        "deviation ratio rises", "Figures 11, 12",
+        "004-4", "With load a regular orbit becomes chaotic, and the deviation ratio rises",
+        "Figures 11, 12",
         {
             "regular at 5000": Within("line", LOADS[:1], low=REGULAR),
             "chaotic at 12,500": Within("line", LOADS[-1:], high=REGULAR),
@@ -116,7 +116,7 @@ CLAIMS = (
         },
     ),
     Claim(
-        "004-4b", "At 12,500 N the deviation ratio is 24.44 % (within a fifth)", "conclusion 2",
+        "004-4b", "At the largest load the deviation ratio is 24.44 % (a fifth)", "conclusion 2",
         {"its size": Within("deviation", LOADS[-1:], (1 - NEAR) * PRINTED, (1 + NEAR) * PRINTED)},
     ),
     Claim(

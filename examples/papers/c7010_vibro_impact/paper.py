@@ -54,16 +54,20 @@ KNOWN = Table(
     "Printed, inferred, swept",
     ("quantity", "value", "by"),
     [
-        ("bearing, balls, grooves", "7010C, 18 of 8.73 mm, 4.58 and 4.63 mm", "printed"),
-        ("speed; axial load", "4000 to 12,000 rpm; 1500 N", "printed"),
-        ("radial load", "5000 to 12,500 N; 1500 N or more elsewhere", "inferred from the text"),
+        ("bearing, balls, grooves", "7010C, balls of 8.73 mm", "printed"),
+        ("speed; axial load", "to 12,000 rpm; 1500 N", "printed"),
+        ("radial load", "5000 to 12,500 N; less in the map of speeds", "inferred from the text"),
         ("clearance", "0.02 to 0.14 mm, of pockets, races or both", "printed, read three ways"),
         ("normal law", "IMPACT with STEP, or Lankarani-Nikravesh", "printed; its numbers swept"),
         ("friction, its speeds", "wide ranges", "law printed, numbers swept"),
-        ("cage", "27 or 10 g, up to 20 um out of balance", "printed and inferred, swept"),
+        ("cage", "27 or 10 g; out of balance or not", "printed and inferred, swept"),
         ("cage modulus", "28.3 or 2.83 GPa", "printed, or tenfold misprint; swept"),
         ("land, gravity, start, ring's centre", "with and without", "swept: the text has none"),
-        ("waves, accelerations", "1 to 10 %; 2000 to 8000 rad/s^2", "only in figures; swept, set"),
+        (
+            "waves, accelerations",
+            "of some per cent; to 8000 rad/s^2",
+            "only in figures; swept, set",
+        ),
     ],
 )
 MODEL = (
