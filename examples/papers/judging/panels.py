@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 
 from flexcage.render import sheet
 
-WIDE, HIGH, SQUARE, LEFT, TOP, GAP_X, GAP_Y = 440, 220, 230, 90, 110, 85, 90  # px, of panels
+WIDE, HIGH, SQUARE, LEFT, TOP, GAP_X, GAP_Y = 440, 220, 230, 90, 110, 85, 115  # px, of panels
 
 
 @dataclass(frozen=True)

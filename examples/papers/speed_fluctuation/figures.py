@@ -169,7 +169,7 @@ def draw(computed, folder: Path) -> dict[str, str]:
         "5": [p.row(still, cage_speed, "cage speed / rpm", whole=True, marked=True)],
         "6": speeds(NAMES_A, BY_A, "table_6", a), "7_9": cage(NAMES_A, BY_A, a),
         "10_12": ring(NAMES_A, BY_A, a), "13": speeds(NAMES_N, BY_N, "table_7", n),
-        "14_16": cage(NAMES_N, BY_N, n), "17_19": ring(NAMES_N, BY_N, n),
+        "14_19": [*cage(NAMES_N, BY_N, n), *ring(NAMES_N, BY_N, n)],
     }  # fmt: skip
     found = {"sketch": sketch(folder / "sketch.png")}
     for key, panels in rows.items():

@@ -76,11 +76,11 @@ KNOWN = Table(
     "Printed, inferred, swept",
     ("quantity", "value", "by"),
     [
-        ("bearing, speed, loads", "7603025, 2000 rpm, 3500 N and 1200 N", "printed"),
-        ("fluctuation", "A of 3, 6, 9 %; N of 1, 2, 3", "printed"),
+        ("bearing, speed, loads", "2000 rpm, 3500 N axially and a third of it radially", "printed"),
+        ("fluctuation", "A to 9 %, N to 3", "printed"),
         ("friction", "f_s and f_d; DC from 0 on", "Table 3; its decay swept"),
-        ("balls, pitch circle", "17 of 5.55 mm on 42.4 mm", "inferred from Table 5"),
-        ("those of the tested bearing", "5.55 to 7.14 mm on 42.4 to 43.5 mm", "swept"),
+        ("balls, pitch circle", "of 5.55 mm on 42.4 mm", "inferred from Table 5"),
+        ("those of the tested bearing", "to 7.14 mm on 43.5 mm", "swept"),
         ("pockets", "spheres of 0.05 to 0.3 mm of play", "inferred, swept: see below"),
         ("pocket contact", "linear penalty or Hertz", "penalty printed, numbers swept"),
         ("race contact", "Hertz or up to ten times softer, hardly damped", "inferred, swept"),
@@ -104,7 +104,6 @@ ASKS = (
     "right?",
     "N_ir of 18,545 and n_c of 922 rpm do not belong to one run of 17 balls (18,326): how are "
     "balls counted?",
-    "Which size has the inner ring's orbit in Figures 10 and 17?",
 )
 
 
@@ -149,12 +148,11 @@ def paper_figures(c: Computed, pictures: dict[str, str]) -> list[Figure]:
                "a floor at constant speed; the same fluctuation at any N.", pictures["13"],
                ("002-2b", "002-7"),
                f"Fluctuations (medians) are {line(c, 'swing', WAVES, PERCENT)} % at N = 1, 2, 3."),
-        Figure("Figures 14 to 16: orbit and force of the cage over N",
-               "wider, more chaotic, larger forces.", pictures["14_16"], ("002-8",),
-               f"Forces (medians) are {line(c, 'one_force', OVER_N)} N: acceleration goes with N."),
-        Figure("Figures 17 to 19: the inner ring over N", "its orbit widens; forces fluctuate "
-               "more.", pictures["17_19"], ("002-9",),
-               f"The range is {line(c, 'ring_range', OVER_N, NM)} nm (medians)."),
+        Figure("Figures 14 to 19: cage and inner ring over N",
+               "both orbits widen, the cage's is more chaotic, forces grow.", pictures["14_19"],
+               ("002-8", "002-9"),
+               f"Forces of the cage (medians) are {line(c, 'one_force', OVER_N)} N: acceleration "
+               f"goes with N. The ring's range is {line(c, 'ring_range', OVER_N, NM)} nm."),
     ]  # fmt: skip
 
 
