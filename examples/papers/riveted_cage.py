@@ -1,6 +1,6 @@
 """A riveted cage under an overturning moment: the paper on an aviation motor's bearing, repeated.
 
-    python examples/papers/riveted_cage.py             # readings, maps, design: two hours
+    python examples/papers/riveted_cage.py             # readings, maps, design: six hours
     python examples/papers/riveted_cage.py --quick     # 40 ms, one start, no map
     python examples/papers/riveted_cage.py --page      # writes the page from what is computed
 

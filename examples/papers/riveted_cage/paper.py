@@ -131,7 +131,8 @@ def paper_figures(computed: Computed, p: dict[str, str]) -> list[Figure]:
         Figure("Figure 5: pocket radius", "force and stress are least at 3.46 mm, slip rises, tilt "
                "falls.", p["5"], ("001-1", "001-1b", "001-2", "001-10"),
                "Little play holds balls that want another speed; much lets them strike faster, and "
-               "lets the cage's orbit widen."),
+               "lets the cage's orbit widen. At 3.60 mm the median is "
+               f"{m(CAGE, FORCE, 'Rp 3.60', 1.0)} N."),
         Figure("Figures 6 and 7: width and sheet", "force and slip are least at 6 to 6.5 mm, tilt "
                "falls; force is least at 0.8 mm of sheet, stress falls, slip stays.", p["6"],
                ("001-3", "001-3b", "001-4", "001-4b"), f"Medians {m(CAGE, FORCE, 'w 4.4', 1.0)}, "
