@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 from claims import CLAIMS, JUDGED_BY, LOADS, RACES, RAMPS, SCATTER, SPEEDS, WAVES
-from figures import DEG, PERCENT, RPM, draw
+from figures import DEG, PERCENT, draw
 from judging.judge import REPRODUCED, UNDER
 from judging.page import Figure, Table
 from repeat import Computed, Draft, Paper
