@@ -79,7 +79,7 @@ def test_claims_on_fluctuating_speed_judge_the_papers_own_numbers():
     def at(output, condition):
         return good[output][CONDITIONS.index(condition)]
 
-    assert failing(paper, at) == ["002-0c, its size"]  # the test's 927, where 922 are simulated
+    assert failing(paper, at) == []
     good |= {"swing": [0.003, 0.042, 0.079, 0.106, 0.092, 0.101], "speed_whole": [937 * rpm] * 6}
     good |= {"follows": [0.1, 0.93, 0.96, 0.98, 0.92, 0.93], "ripple": [1.0] * 6}
     good |= {"speed": [927 * rpm] * 6}
@@ -93,7 +93,7 @@ def test_figures_of_a_speed_that_fluctuates():
     """A sine of 6 % with a quarter of its variance in another; balls whose force follows place; an
     ellipse, and noise about it."""
     loaded(WAVES)
-    f = sys.modules["outputs"]
+    f = module(WAVES, "outputs")
     t = np.arange(7200) / 20e3
     sine, other = np.sin(2 * np.pi * t / 30e-3), np.sin(2 * np.pi * t / 9e-3)
     amplitude, share = f.wave_in(100.0 + 6.0 * sine + 3.0 * other, t, 30e-3)
@@ -120,7 +120,7 @@ def test_table_5_is_what_the_paper_prints():
     import flexcage
 
     loaded(WAVES)
-    found = sys.modules["outputs"].analytical(flexcage.load_case(WAVES / "case.toml").bearing)
+    found = module(WAVES, "outputs").analytical(flexcage.load_case(WAVES / "case.toml").bearing)
     assert found["speed"] * 30 / np.pi == pytest.approx(935, abs=0.5)
     assert found["v_inner"] == pytest.approx(4.150, abs=5e-4)
     assert found["v_ball"] == pytest.approx(2.075, abs=5e-4)
@@ -178,8 +178,11 @@ def test_the_mass_centre_of_an_unbalanced_cage_circles_with_the_cage():
     away = 2e-7 / run.summary["cage_mass"]
     apart = place - f.metrics.orbit(run.dataset)
     np.testing.assert_allclose(np.hypot(*apart.T), away, rtol=1e-6)
-    assert np.degrees(np.arctan2(apart[0, 1], apart[0, 0])) == pytest.approx(30.0, abs=0.5)
-    slopes = np.gradient(place, run.dataset["time"].values, axis=0)[1:-1]
+    time = run.dataset["time"].values
+    turned = np.degrees(run.dataset["cage_omega"].sel(axis="x").values[0] * time[0])
+    first = np.degrees(np.arctan2(apart[0, 1], apart[0, 0]))
+    assert first == pytest.approx(30.0 + turned, abs=0.5)
+    slopes = np.gradient(place, time, axis=0)[1:-1]
     scale = np.abs(velocity).max()
     np.testing.assert_allclose(velocity[1:-1, 1:], slopes, atol=0.02 * scale)
 
@@ -193,8 +196,9 @@ def test_halves_of_a_record_that_differ_by_a_tenth_beyond_chance_drift():
     passes = Windows(n, np.arange(80) * n // 80, 18)
     noise = 1.0 + 0.05 * np.random.default_rng(1).standard_normal(n)
     assert f.drifts(noise, passes) == 0.0
-    assert f.drifts(noise * np.linspace(1.0, 1.05, n), passes) == 0.0  # little, if not by chance
-    assert f.drifts(noise * np.linspace(1.0, 2.0, n), passes) == 1.0
+    later = np.arange(n) >= n // 2
+    assert f.drifts(noise * (1.0 + 0.05 * later), passes) == 0.0  # little, if not by chance
+    assert f.drifts(noise * (1.0 + 0.5 * later), passes) == 1.0
 
 
 def test_predictions_are_the_rows_that_are_asked_for():
