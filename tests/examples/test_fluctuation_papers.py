@@ -184,7 +184,7 @@ def test_the_mass_centre_of_an_unbalanced_cage_circles_with_the_cage():
     assert first == pytest.approx(30.0 + turned, abs=0.5)
     slopes = np.gradient(apart, time, axis=0)[1:-1]
     added = velocity - run.dataset["cage_velocity"].transpose("time", "axis").values
-    np.testing.assert_allclose(added[1:-1, 1:], slopes, atol=0.01 * np.abs(slopes).max())
+    np.testing.assert_allclose(added[1:-1, 1:], slopes, atol=0.03 * np.abs(slopes).max())
 
 
 def test_halves_of_a_record_that_differ_by_a_tenth_beyond_chance_drift():
