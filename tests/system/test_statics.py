@@ -336,9 +336,17 @@ def test_pressure_beyond_the_static_rating_is_warned_of():
     assert "4200 MPa" in text
 
 
-def test_a_race_law_of_ones_own_is_not_passed_over():
-    from flexcage.contacts.spec import NormalLaw
+@pytest.mark.parametrize(
+    ("bearing", "load", "by"),
+    [(ROLLERS, Load(radial=9.0), "rollers on races by ISO/TS 16281"),
+     (BALLS, Load(axial=300.0), "balls on races by Hertz")],
+)  # fmt: skip
+def test_a_race_law_of_ones_own_is_not_passed_over(bearing, load, by):
+    from flexcage.contacts.spec import NormalLaw, OwnImpact
 
-    race = PairSpec(normal=replace(NormalLaw(), law="spring"))
-    with pytest.raises(InputError, match="normal.law is 'spring'.*ISO/TS 16281"):
-        solve_bearing(ROLLERS, load=Load(radial=9.0), contacts=Contacts(race=race))
+    for law in (replace(NormalLaw(), law="spring"), OwnImpact(damping=1e4)):
+        with pytest.raises(InputError, match=f"law is '{law.law}', but a static solution has {by}"):
+            solve_bearing(bearing, load=load, contacts=Contacts(race=PairSpec(normal=law)))
+    same = PairSpec(normal=NormalLaw(law="lankarani_nikravesh"))
+    found = solve_bearing(bearing, load=load, contacts=Contacts(race=same))
+    assert (found.displacement == solve_bearing(bearing, load=load).displacement).all()

@@ -20,6 +20,7 @@ from flexcage.contacts.spec import Contacts
 from flexcage.core.errors import InputError
 from flexcage.geometry.hertz import PointContact
 from flexcage.system.statics.elements import ElementLoads, Response, azimuths
+from flexcage.system.statics.laws import check_law
 from flexcage.system.statics.options import StaticOptions
 
 _SHARES = {"outer_race": (0.0, 1.0), "shared": (0.5, 0.5), "none": (0.0, 0.0)}
@@ -31,7 +32,8 @@ _GROOVE_BOTTOM = 1e-6  # rad: at a lower contact angle nothing holds the ring ax
 def balls_of(
     bearing: BallBearing, *, speed: float, contacts: Contacts, options: StaticOptions
 ) -> Balls:
-    """Balls of a bearing; ``contacts`` say nothing of them so far."""
+    """Balls of a bearing on races by Hertz; InputError where ``contacts`` have another law."""
+    check_law(contacts.race.normal.law, "contacts.race.normal.law", "balls on races by Hertz")
     motion = BallMotion(
         mass=bearing.ball_mass,
         inertia=bearing.ball_inertia,

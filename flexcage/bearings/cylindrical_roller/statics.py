@@ -21,13 +21,12 @@ from scipy.optimize import brentq
 from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
 from flexcage.bearings.cylindrical_roller.rib_statics import RibPairs, rib_pairs
 from flexcage.contacts.spec import Contacts
-from flexcage.core.errors import InputError
 from flexcage.geometry.kinematics import epicyclic
 from flexcage.system.statics.elements import ElementLoads, Response, azimuths
+from flexcage.system.statics.laws import check_law
 from flexcage.system.statics.options import StaticOptions
 
 EXPONENT = 10.0 / 9.0
-_AT_REST = ("restitution", "lankarani_nikravesh", "impact_step", "elastic")  # K d^n at rest
 # ISO/TS 16281:2008: ratings of one roller, and lambda nu of radial roller bearings
 _INNER, _OUTER, _LAMBDA_NU, _SPREAD = 0.378, 0.364, 0.83, 1.038
 
@@ -61,21 +60,10 @@ def rollers_of(
 
 def _check_laws(bearing: RollerBearing, contacts: Contacts) -> None:
     """Refuse laws that have no force at rest, or another one than the static solution takes."""
-    law, rib = contacts.race.normal.law, contacts.rib.normal.law
-    if law not in _AT_REST:
-        raise InputError(
-            f"contacts.race.normal.law is '{law}', but a static solution has rollers on races by "
-            f"ISO/TS 16281, as {', '.join(_AT_REST)} have at rest; take one of these.",
-            where="contacts.race.normal.law",
-            value=law,
-        )
-    if any(bearing.carried) and rib not in _AT_REST:
-        raise InputError(
-            f"contacts.rib.normal.law is '{rib}', but a static solution has rollers on ribs as "
-            f"{', '.join(_AT_REST)} have them at rest; take one of these.",
-            where="contacts.rib.normal.law",
-            value=rib,
-        )
+    race, rib = "contacts.race.normal.law", "contacts.rib.normal.law"
+    check_law(contacts.race.normal.law, race, "rollers on races by ISO/TS 16281")
+    if any(bearing.carried):
+        check_law(contacts.rib.normal.law, rib, "rollers on ribs as flat ends")
 
 
 @dataclass(frozen=True)
