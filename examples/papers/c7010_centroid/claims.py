@@ -1,8 +1,9 @@
 """What the paper on lasers claims, as findings with rules on figures of runs.
 
-Rules were written down before any run of the samples. Claims on the test are judged by what lasers
-would show of the cage (its form error included) and by what the paper's equations make of that;
-claims on the simulation by the cage's centre itself, in the sample of the paper's own model.
+Rules were written down before the samples' runs; paper.py names what was changed since. Claims on
+the test are judged by what lasers would show of the cage (its form error included) and by what the
+paper's equations make of that; claims on the simulation by the cage's centre itself, in the sample
+of the paper's own model.
 """
 
 from judging.findings import Below, Claim, Together, Trend, Turn, Within

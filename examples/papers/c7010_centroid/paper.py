@@ -188,7 +188,9 @@ def draft(computed: Computed, folder: Path) -> Draft:
         history=(
             "Earlier pages had lasers that see a perfect cylinder, and judged claims on the test "
             "by the cage's centre. A referee's runs of one start showed that two lobes of 80 um "
-            "make 0.22 mm; the form error was then made an unknown, before any run of these maps.",
+            "make 0.22 mm; the form error was then made an unknown.",
+            "After trial runs a record counts as drifting only if its halves differ by twice their "
+            "margin and by a twentieth; claims on the test and on the simulation were parted.",
             "IMPACT at races as well (0.1 % of their stiffness, 1.1e6 N s/m) was tried for 20 ms "
             "only: it takes some tens of times the time.",
         ),

@@ -2,10 +2,9 @@
 
 Its Table 1 has 1500 N in axial direction; a region without load, which the text describes, needs a
 radial load beside it: the sweep of the load is one of the radial load, at 1500 N axial. Rules were
-written down before any run of the samples.
-
-Opposite the load a ball may not touch the inner ring, so that it has no inner contact angle there:
-the outer one is judged, which centrifugal force leaves.
+written down before the samples' runs; paper.py names what was changed after trials. Opposite the
+load a ball may not touch the inner ring, so that it has no inner contact angle there: the outer
+one is judged, which centrifugal force leaves.
 """
 
 from judging.findings import Below, Claim, Same, Trend, Within

@@ -1,9 +1,9 @@
 """What the paper on riveted cages claims, as findings with rules on figures of runs.
 
-Rules were written down before any run of the samples. Slip is judged by its size |S_c|: equation 10
-lacks the contact angle's cosine, so that its sign follows from geometry. The signed one is an
-output beside it. Stress of rivets is nominal, in the shank of the most stressed one: the head's
-root multiplies it by a number that is the same for one rivet.
+Rules were written down before the samples' runs; paper.py names what was changed since. Slip is
+judged by its size |S_c|: equation 10 lacks the contact angle's cosine, so that its sign follows
+from geometry. The signed one is an output beside it. Stress of rivets is nominal, in the shank of
+the most stressed one: the head's root multiplies it by a number that is the same for one rivet.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """What the paper on fluctuating speed claims, as findings with rules on figures of runs.
 
-Rules were written down before any run of the samples.
+Rules were written down before the samples' runs; paper.py names what was changed since.
 """
 
 from judging.findings import Claim, Same, Trend, Within
