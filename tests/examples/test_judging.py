@@ -202,7 +202,7 @@ def test_a_page_goes_figure_by_figure_and_its_appendix_has_the_statistics():
     text = compose(page(history=["a limit"]))
     parts = ("# A paper", "What it says", "(hero.png)", "| 1 | 2 |", "### Figure 1",
              "*The paper:* it rises", "(a.png)", "**rises: ✓ reproduced.** because it must",
-             "| 1 | it rises (Figure 1) | rises | ✓ reproduced |", "- why?",
+             "| 1 | it rises (Figure 1) | ✓ rises |", "- why?",
              "1 minute")  # fmt: skip
     places = [text.index(part) for part in parts]
     assert all(a < b for a, b in pairwise(places))
@@ -218,3 +218,13 @@ def test_pages_that_nobody_reads_are_refused():
         compose(page(asks=["one line of asking"] * 140))
     with pytest.raises(ValueError, match="too full: 0.82"):
         compose(page(known=Table("Known", ("a",), [("0.82 (0.59 to 1.6)",)])))
+
+
+def test_names_are_no_numbers_and_claims_may_have_as_many_as_they_need():
+    from judging.page import NUMBER, Table, table
+
+    assert NUMBER.findall("roller j-1 at -0.3 mm (0.59 to 1.6)") == ["-0.3", "(0.59", "1.6"]
+    many = Table("", ("claim", "value"), [("at 0.1, 0.2 and 0.3 mm", "1 of 2")])
+    assert "0.3 mm" in table(many, free=("claim",))
+    with pytest.raises(ValueError, match="too full"):
+        table(many)

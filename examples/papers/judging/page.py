@@ -15,7 +15,7 @@ from textwrap import wrap
 from judging.judge import CONTRADICTED, REPRODUCED, UNDER, UNTESTABLE, Judged
 
 MOST_LINES, MOST_NUMBERS, MOST_WORDS, WIDE = 150, 2, 25, 110
-NUMBER = re.compile(r"(?<![\w.])[-+±(]?\d[\d.,]*")
+NUMBER = re.compile(r"(?<![\w.-])[-+±(]?\d[\d.,]*")
 MARKS = {REPRODUCED: "✓", UNDER: "◐", CONTRADICTED: "✗", UNTESTABLE: "–"}
 LEGEND = """✓ reproduced: at 80 % or more of the settings that the text allows. ◐ reproduced under a
 condition: at 80 % or more of a region, named here, of a tenth of the settings or more. ✗
@@ -42,6 +42,12 @@ class Found:
     where: str
     judged: Judged
     condition: str = ""
+
+    @property
+    def marked(self) -> str:
+        """The part with the mark of its verdict, and the condition that it is reproduced under."""
+        under = f" ({self.condition})" if self.judged.verdict == UNDER else ""
+        return f"{MARKS[self.judged.verdict]} {self.part}{under}"
 
     @property
     def said(self) -> str:
@@ -158,13 +164,15 @@ def _figure(figure: Figure, by_claim: dict[str, list[Found]]) -> str:
 
 
 def _claims(found: Sequence[Found]) -> str:
-    rows, last = [], ""
-    for one in found:
-        text = f"{one.text} ({one.where})" if one.claim != last else ""
-        rows.append((one.claim if one.claim != last else "", text, one.part, one.said))
-        last = one.claim
-    # a region in words has the limits of two unknowns: as many numbers as it needs
-    return table(Table("", ("", "claim", "finding", "verdict"), rows), free=("verdict",))
+    """One row a claim: its findings, each with the mark of its verdict, and the condition if it
+    has one."""
+    claims = {one.claim: one for one in found}
+    rows = [
+        (key, f"{one.text} ({one.where})", "; ".join(f.marked for f in found if f.claim == key))
+        for key, one in claims.items()
+    ]
+    # claims and conditions need the words and numbers that they have
+    return table(Table("", ("", "claim", "findings"), rows), free=("claim", "findings"))
 
 
 def wrapped(text: str) -> str:
