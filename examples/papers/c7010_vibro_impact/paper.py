@@ -45,8 +45,6 @@ def mechanisms(c: Computed) -> dict[str, str]:
     if shows("clearance", ("inner_load", wide), ("inner_load", narrow), 1.2):
         why = "clearance opens the free contact angle, cos a = 1 - P_d/2A"
         found["004-5b, angle falls at the load"] = why
-    if shows("speeds", ("load_force", SPEEDS[0]), ("load_force", SPEEDS[-1])):
-        found["004-1, rises"] = "centrifugal force takes load off the inner ring"
     return found
 
 
