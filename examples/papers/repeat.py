@@ -116,9 +116,10 @@ def load(folder: Path) -> Paper:
     One paper at a time: outputs of papers that were loaded before may have the same names, and are
     dropped.
     """
+    folder = folder.resolve()
     sys.path.insert(0, str(folder))
     for name, output in list(OWN.items()):
-        file = Path(output.compute.__code__.co_filename)
+        file = Path(output.compute.__code__.co_filename).resolve()
         if file.parent.parent == folder.parent:
             del OWN[name]
             forget(file)
