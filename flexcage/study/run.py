@@ -166,6 +166,7 @@ class _Desk:
         self._names: dict[str, str] = {}  # hash of a case by the key of its future
         self._window, self._looked = 1, -_LOOK
         self._back: list[Any] = []  # futures that have come back and wait to be taken
+        self._reasons: set[str] = set()  # why cases failed, as far as it was said
 
     def work_off(self, todo: set[str]) -> Iterator[str]:
         """Hash of every case of ``todo``, as it comes back."""
@@ -221,7 +222,16 @@ class _Desk:
             log.warning("case %s: %s", name, reason)
         elif future.status != "finished":
             raise self._lost()
+        elif future.result() == "failed":
+            self._say_why(name)
         return name
+
+    def _say_why(self, name: str) -> None:
+        """Say at once why a case failed, each reason once: the next ones may fail alike."""
+        failure = self.folder.failure(name)
+        if failure is not None and failure.reason not in self._reasons:
+            self._reasons.add(failure.reason)
+            log.warning("Case %s failed: %s", name, failure.reason)
 
     def _lost(self) -> RunFailed:
         return RunFailed(

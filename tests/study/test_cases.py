@@ -7,7 +7,7 @@ import numpy as np
 import pandas
 import pytest
 import xarray
-from study_cases import short_case, short_study
+from study_cases import short_case, short_study, study_file
 
 from flexcage import cli
 from flexcage.case import load_case
@@ -26,7 +26,8 @@ from flexcage.study.outputs import check_outputs, parse_reduction
 from flexcage.study.plan import make_plan
 from flexcage.study.record import mean_and_half_width
 from flexcage.study.results import StudyResults
-from flexcage.study.spec import Study
+from flexcage.study.run import run_study
+from flexcage.study.spec import Study, load_study
 from flexcage.study.work import do_case, order_of
 
 
@@ -354,3 +355,21 @@ def test_interval_of_three_repetitions():
     assert mean == 2.0
     assert half == pytest.approx(4.30265 / np.sqrt(3), rel=1e-5)  # t(0.975, 2) of any table
     assert np.isnan(mean_and_half_width([1.0])[1])
+
+
+def test_a_mistake_in_ones_own_outputs_is_said_once_as_it_happens(tmp_path, caplog):
+    """Three cases fail alike: one sentence tells why, not at the end."""
+    own = tmp_path / "mine.py"
+    own.write_text(
+        "from flexcage.register import outputs\n"
+        "outputs(lambda run: {'my_place': run.dataset['cage_place'][0]}, {'my_place': 'um'})\n"
+    )
+    file = study_file(
+        tmp_path, 'use = ["mine.py"]', '[[axes]]', 'path = "load.radial"',
+        'values = ["500 N", "600 N", "700 N"]', outputs=("my_place",),
+    )  # fmt: skip
+    with caplog.at_level("WARNING", logger="flexcage.study.run"):
+        results = run_study(load_study(file), out=tmp_path / "out", workers=1)
+    assert results.count("failed") == 3
+    told = [r.getMessage() for r in caplog.records if " failed: " in r.getMessage()]
+    assert len(told) == 1 and "cage_place" in told[0]
