@@ -24,6 +24,7 @@ from flexcage.core.errors import InputError, RunFailed
 from flexcage.geometry.full_complement import CAGED
 from flexcage.results.audit import EXCEEDED, OF_CAGE, OF_DRIVE, energy_audit
 
+LARGEST = 61e-3  # m, bore of deep groove ball bearings
 CAGES = {
     "deep_groove_ball": ("machined", "ribbon", "crown"),
     "angular_contact_ball": ("machined", "crown"),
@@ -56,8 +57,10 @@ def _drawn(rng: np.random.Generator, flexible: float) -> tuple[dict[str, str], s
     """Changes and text of a case for a bearing of the catalogue."""
     rollers = rng.random() < 0.5
     outlines = {n: find(n).outline for n in designations()}
+    # numbers of a seed name cases: deep groove ball bearings are those that the first trials drew
     names = [n for n, outline in outlines.items() if outline.complement == CAGED
-             and (outline.type == "cylindrical_roller") == rollers]  # fmt: skip
+             and (outline.type == "cylindrical_roller") == rollers
+             and (outline.type != "deep_groove_ball" or outline.bore < LARGEST)]  # fmt: skip
     entry = find(names[rng.integers(len(names))])
     outline = entry.outline
     if rollers and outline.design == "NJ" and rng.random() < 0.3:

@@ -293,7 +293,7 @@ def test_axial_loads_that_change_have_a_limit_too(name):
         ("name = 'x'\n", ["lacks 'bearing' (the bearing); give it"]),
         (
             '[bearing]\npreset = "NU1013"',
-            ["presets are", "designs N, NU, NJ, NUP and NF", "give bearing.design"],
+            ["presets are", "'flexcage new NU1013' writes such a case, from your maker's ratings"],
         ),
         ('[bearing]\npreset = "nj 205 ECP"', ["presets are", "give bearing.design"]),
         ('[bearing]\ntype = "NU"', ["give bearing.design (type 'cylindrical_roller')"]),

@@ -25,6 +25,7 @@ PICTURES = {
     "bearing_pictures": ["bearing_picture"],
     "curves": ["orbit", "histories"],
     "stress_pictures": ["stress_picture", "envelope_picture", "deformation_picture"],
+    "pocket_pictures": ["pocket_picture"],
     "spectra": ["spectra_picture"],
     "animations": ["animate_bearing", "animate_stress"],
 }
