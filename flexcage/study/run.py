@@ -222,12 +222,12 @@ class _Desk:
             log.warning("case %s: %s", name, reason)
         elif future.status != "finished":
             raise self._lost()
-        elif future.result() == "failed":
+        else:
             self._say_why(name)
         return name
 
     def _say_why(self, name: str) -> None:
-        """Say at once why a case failed, each reason once: the next ones may fail alike."""
+        """Say at once why a case failed, if it did, each reason once: the next may fail alike."""
         failure = self.folder.failure(name)
         if failure is not None and failure.reason not in self._reasons:
             self._reasons.add(failure.reason)
