@@ -17,6 +17,7 @@ from dataclasses import dataclass, field, replace
 from datetime import date
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 from judging.findings import Claim
 from judging.index import Measured, write_index, write_measured
@@ -40,6 +41,7 @@ from flexcage.study import (
 )
 from flexcage.study.own import OWN
 
+At = Callable[[str, str], np.ndarray]  # of an output and a condition: all settings
 QUICK = {"solver.duration": "40 ms"}
 MODULES = ("claims", "outputs", "predict", "figures", "mechanisms", "paper")
 
@@ -103,6 +105,45 @@ class Computed:
     def of(self, key: str, part: str) -> Found:
         """One finding."""
         return next(f for f in self.found if (f.claim, f.part) == (key, part))
+
+    def numbers(self, sample: str, output: str, condition: str) -> np.ndarray:
+        """An output over the settings of a sample that have it; none without the sample."""
+        if sample not in self.samples:
+            return np.zeros(0)
+        found = self.samples[sample].means[output, condition]
+        return found[np.isfinite(found)]
+
+    def middle(
+        self, sample: str, output: str, condition: str, factor: float = 1.0, *, digits: int = 2
+    ) -> str:
+        """Median of an output over the settings; "-" where there is none."""
+        found = self.numbers(sample, output, condition)
+        if not len(found):
+            return "-"
+        value = float(np.median(found)) * factor
+        return f"{value:.{digits}g}" if abs(value) < 10**digits else f"{value:,.0f}"
+
+    def middles(
+        self, sample: str, output: str, conditions: Sequence[str], factor: float = 1.0
+    ) -> str:
+        """Medians along some conditions, as "1.2, 3.4 and 5.6"."""
+        found = [self.middle(sample, output, c, factor, digits=3) for c in conditions]
+        return ", ".join(found[:-1]) + f" and {found[-1]}"
+
+    def share(self, sample: str, rule: Callable[[At], np.ndarray]) -> float:
+        """Share of the settings at which a rule on outputs holds, of those that have all that it
+        reads; 0 without any."""
+        if sample not in self.samples:
+            return 0.0
+        means, read = self.samples[sample].means, []
+
+        def at(output: str, condition: str) -> np.ndarray:
+            read.append(means[output, condition])
+            return read[-1]
+
+        found = np.asarray(rule(at), bool)
+        known = np.isfinite(read).all(axis=0)
+        return float(found[known].mean()) if known.any() else 0.0
 
     @property
     def counts(self) -> Counter[str]:
@@ -219,17 +260,28 @@ def power_table(computed: Computed) -> Table:
         name = computed.paper.sample_for(claim)
         if name not in computed.samples:
             continue
-        values = next(iter(computed.samples[name].values.values()))
+        size = next(iter(computed.samples[name].values.values())).shape
         for part, finding in claim.parts.items():
             scatter = scatter_of(computed.paper, finding.outputs)
-            wins = verdicts(finding, claim.change, points=len(values), starts=values.shape[1],
-                            scatter=scatter, trials=20)[REPRODUCED]  # fmt: skip
+            wins = tried(computed.paper, claim, part, size, trials=20)[REPRODUCED]
             rows.append(
                 (claim.key, part, f"{claim.change:.0%}", f"{scatter:.0%}", f"{wins / 20:.0%}")
             )
     return Table(
         "Power: how often a finding that is true by construction is found to be reproduced",
         ("claim", "finding", "change", "scatter of starts", "found"), rows,
+    )  # fmt: skip
+
+
+def tried(
+    paper: Paper, claim: Claim, part: str, size: tuple[int, int], *, trials: int
+) -> Counter[str]:
+    """Verdicts on a part of a claim by samples of a ``size`` (points, starts) for which it is true
+    by construction, with the scatter of real starts."""
+    finding, (points, starts) = claim.parts[part], size
+    return verdicts(
+        finding, claim.change, points=points, starts=starts,
+        scatter=scatter_of(paper, finding.outputs), trials=trials,
     )  # fmt: skip
 
 

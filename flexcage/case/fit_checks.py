@@ -11,6 +11,7 @@ from flexcage.core.units import describe
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.checks import Finding
 from flexcage.geometry.fits.mounting import MIDDLE, Mounting
+from flexcage.geometry.fits.telling import um
 
 if TYPE_CHECKING:
     from flexcage.case.sections import LoadedSections
@@ -67,23 +68,19 @@ def questioned_fit(case: LoadedSections) -> Iterator[str]:
     left = mounting.part("operating").values
     if mounting.operating < 0.0 and not fit.preload:
         yield (
-            f"The fit closes the clearance: {_um(mounting.operating)} are left in operation, a "
+            f"The fit closes the clearance: {um(mounting.operating)} are left in operation, a "
             "preload; take a larger class of clearance (fit.clearance) or looser fits, or say that "
             "it is meant by fit.preload = true."
         )
     elif left[0] < 0.0 and mounting.taken == MIDDLE and not fit.preload:
         yield (
-            f"Within its tolerances the fit may close the clearance: {_um(left[0])} to "
-            f'{_um(left[2])} are left in operation; fit.at = "least" computes the tightest.'
+            f"Within its tolerances the fit may close the clearance: {um(left[0])} to "
+            f'{um(left[2])} are left in operation; fit.at = "least" computes the tightest.'
         )
     for name, grip in (("inner ring", mounting.inner), ("outer ring", mounting.outer)):
         k = mounting.taken
         if grip.interference[k] > 0.0 and grip.operating[k] <= 0.0:
             yield (
-                f"The {name} loses its grip: of an interference of {_um(grip.interference[k])} "
-                f"{_um(grip.operating[k])} are left in operation; warmth and speed take the rest."
+                f"The {name} loses its grip: of an interference of {um(grip.interference[k])} "
+                f"{um(grip.operating[k])} are left in operation; warmth and speed take the rest."
             )
-
-
-def _um(value: float) -> str:
-    return f"{1e6 * value:.3g} um"

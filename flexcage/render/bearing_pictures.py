@@ -180,18 +180,24 @@ def bearing_layers(
     return layers
 
 
+def element_points(points: np.ndarray, now: Instant, k: int) -> np.ndarray:
+    """Points (n, 3) of an element about its centre, where element ``k`` is in space."""
+    x, radius, psi = now.position[k]
+    skew, tilt = now.tilt[k]
+    radial = np.array([0.0, np.cos(psi), np.sin(psi)])
+    around = np.array([0.0, -np.sin(psi), np.cos(psi)])
+    axis = np.array([1.0, 0.0, 0.0]) + tilt * radial + skew * around
+    frame = np.column_stack([axis / np.linalg.norm(axis), radial, around])
+    placed: np.ndarray = points @ frame.T + x * np.array([1.0, 0.0, 0.0]) + radius * radial
+    return placed
+
+
 def _elements(now: Instant, shapes: Shapes, chosen: np.ndarray) -> pyvista.PolyData:
     pv = load_pyvista()
     one, parts = revolved(shapes.element, segments=48), []
     for k in np.flatnonzero(chosen):
-        x, radius, psi = now.position[k]
-        skew, tilt = now.tilt[k]
-        radial = np.array([0.0, np.cos(psi), np.sin(psi)])
-        around = np.array([0.0, -np.sin(psi), np.cos(psi)])
-        axis = np.array([1.0, 0.0, 0.0]) + tilt * radial + skew * around
-        frame = np.column_stack([axis / np.linalg.norm(axis), radial, around])
         part = one.copy()
-        part.points = one.points @ frame.T + x * np.array([1.0, 0.0, 0.0]) + radius * radial
+        part.points = element_points(one.points, now, int(k))
         part.point_data["load"] = np.full(part.n_points, float(now.inner_load[k]))
         parts.append(part)
     return pv.merge(parts) if len(parts) > 1 else parts[0]

@@ -11,7 +11,7 @@ import numpy as np
 from flexcage.core.digits import number_text
 from flexcage.geometry.bearing import Bearing
 from flexcage.render import marks, sheet
-from flexcage.render.bearing_pictures import IDLE
+from flexcage.render.bearing_pictures import IDLE, element_points
 from flexcage.render.instant import Instant
 from flexcage.render.scene import (
     View,
@@ -92,15 +92,8 @@ def element_in_pocket(now: Instant, bearing: Bearing, pocket: int) -> pyvista.Po
     """The rolling element of a pocket at its place in the cage's frame."""
     assert now.cage is not None, "a pocket is a cage's"
     body = revolved(shapes_of(bearing).element, segments=72)
-    x, radius, psi = now.position[pocket]
-    skew, tilt = now.tilt[pocket]
-    radial = np.array([0.0, np.cos(psi), np.sin(psi)])
-    around = np.array([0.0, -np.sin(psi), np.cos(psi)])
-    axis = np.array([1.0, 0.0, 0.0]) + tilt * radial + skew * around
-    frame = np.column_stack([axis / np.linalg.norm(axis), radial, around])
     centre, quaternion = now.cage
-    in_space = body.points @ frame.T + np.array([x, 0.0, 0.0]) + radius * radial
-    body.points = (in_space - centre) @ rotation(quaternion)
+    body.points = (element_points(body.points, now, pocket) - centre) @ rotation(quaternion)
     return body
 
 

@@ -114,6 +114,13 @@ class Windows:
         largest = np.maximum.reduceat(values, self.first).astype(float)
         return Record(np.stack([largest, np.ones(len(largest))], axis=1), self.turn)
 
+    def drifts(self, values: np.ndarray, *, beyond: float = 1.0, by: float = 0.0) -> bool:
+        """Do the halves of ``values`` (n,) differ: by more than ``beyond`` times the 95 % margin of
+        their distance (``Record.drift``), and by more than the share ``by`` of the mean?"""
+        one, other = (half.mean() for half in np.array_split(values, 2))
+        far = abs(other - one) > by * values.mean()
+        return bool(far and self.mean(values).drift > beyond)
+
     def _record(self, *columns: np.ndarray) -> Record:
         sums = np.add.reduceat(np.stack(columns, axis=1).astype(float), self.first)
         return Record(sums, self.turn)

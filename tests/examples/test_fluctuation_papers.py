@@ -195,10 +195,10 @@ def test_halves_of_a_record_that_differ_by_a_tenth_beyond_chance_drift():
     n = 4000
     passes = Windows(n, np.arange(80) * n // 80, 18)
     noise = 1.0 + 0.05 * np.random.default_rng(1).standard_normal(n)
-    assert f.drifts(noise, passes) == 0.0
+    assert not passes.drifts(noise, by=f.APART)
     later = np.arange(n) >= n // 2
-    assert f.drifts(noise * (1.0 + 0.05 * later), passes) == 0.0  # little, if not by chance
-    assert f.drifts(noise * (1.0 + 0.5 * later), passes) == 1.0
+    assert not passes.drifts(noise * (1.0 + 0.05 * later), by=f.APART)  # little, if not by chance
+    assert passes.drifts(noise * (1.0 + 0.5 * later), by=f.APART)
 
 
 def test_predictions_are_the_rows_that_are_asked_for():

@@ -85,18 +85,13 @@ def test_every_rule_can_win(paper, maps):
     real starts, are found to be reproduced."""
     import repeat
     from judging.judge import REPRODUCED
-    from judging.power import verdicts
 
     weak = {}
     for claim in paper.claims:
         specs = maps[paper.sample_for(claim)]
         points = sum(len(spec.shares) for spec in specs)
-        for part, finding in claim.parts.items():
-            scatter = repeat.scatter_of(paper, finding.outputs)
-            found = verdicts(
-                finding, claim.change, points=points, starts=specs[0].starts, scatter=scatter,
-                trials=5,
-            )  # fmt: skip
+        for part in claim.parts:
+            found = repeat.tried(paper, claim, part, (points, specs[0].starts), trials=5)
             if found[REPRODUCED] < 5 * ENOUGH:
                 weak[claim.key, part] = dict(found)
     assert not weak

@@ -29,7 +29,8 @@ NOISE = 0.02e-6  # m, the sensors' repeatability, as the paper says
 REACH = 3e-3  # m, and their range
 SPOT = 25e-6  # m, of such a sensor by its maker
 LOBES = 2  # of the rim: an oval is what clamping a thin ring leaves
-CLEARLY, FAR = 2.0, 0.05  # of a drift: over its 95 % margin, and over the mean
+CLEARLY, FAR = 2.0, 0.05  # of a drift, over its margin and the mean: of four speeds each by chance
+# at one in twenty, every fifth setting would be left out
 LINE = 2  # bins of a Hann window's spectrum on either side of a line that belong to it
 UNITS = {
     "form": "um",  # error: height of the rim's lobes, and run-out of the end face
@@ -74,7 +75,7 @@ def evaluate(run) -> Mapping[str, float]:
         "beyond_theory": speed.mean / speed.nominal - 1.0,
         "by_angles": speed.epicyclic / speed.nominal - 1.0,
         "by_outer": by_outer(run, ds) / speed.nominal - 1.0,
-        "drifts": drifts(ds, run, radius),
+        "drifts": float(element_passes(ds, run.numbers).drifts(radius, beyond=CLEARLY, by=FAR)),
         "mean_radius": float(radius.mean()),
         "difference": apart,
         "whole": difference(start[:, 1:]),
@@ -95,15 +96,6 @@ def by_outer(run, ds) -> float:
     ratio = run.case.bearing.ball_diameter / run.case.bearing.pitch_diameter
     share = (1.0 - ratio * np.cos(inner)) / (1.0 + np.cos(inner - outer))
     return abs(float(ds["inner_speed"].mean())) * share
-
-
-def drifts(ds, run, radius: np.ndarray) -> float:
-    """1 where the mean radius (n,) of the halves differs beyond chance and beyond ``FAR``, else 0:
-    of four speeds each by chance at one in twenty, every fifth setting would be left out."""
-    passes = element_passes(ds, run.numbers)
-    halves = [half.mean() for half in np.array_split(radius, 2)]
-    far = abs(halves[1] - halves[0]) > FAR * float(radius.mean())
-    return float(far and passes.mean(radius).drift > CLEARLY)
 
 
 def by_lasers(case, ds, frequency: float) -> dict[str, float]:

@@ -14,25 +14,11 @@ from repeat import Computed, Draft, Paper
 MOSTLY = 0.8  # share of the settings at which a mechanism must be seen
 
 
-def middle(computed: Computed, sample: str, output: str, speed: str, factor: float = 1.0) -> str:
-    """Median of an output over the settings, in two digits."""
-    found = computed.samples[sample].means[output, speed]
-    return f"{np.nanmedian(found) * factor:.2g}" if np.isfinite(found).any() else "-"
-
-
-def seen_at(computed: Computed, sample: str, rule) -> float:
-    """Share of settings at which a rule on numbers of the sample holds, of those that have them."""
-    means = computed.samples[sample].means
-    known = np.isfinite([means["solved", s] for s in SPEEDS]).all(axis=0)
-    found = np.asarray(rule(lambda output, speed: means[output, speed]))
-    return float(found[known].mean()) if known.any() else 0.0
-
-
 def mechanisms(computed: Computed) -> dict[str, str]:
     """Why findings are contradicted, each only if the settings show it."""
     found = {}
     for speed in SPEEDS[2:]:
-        if MODEL in computed.samples and seen_at(computed, MODEL, _leans_at(speed)) > MOSTLY:
+        if computed.share(MODEL, _leans_at(speed)) > MOSTLY:
             found[f"003-5, at {int(speed):,} rpm"] = (
                 "balls roll on the outer race and spin on the inner, at angles that differ"
             )
@@ -42,14 +28,9 @@ def mechanisms(computed: Computed) -> dict[str, str]:
         if name in computed.samples:
             why = _over(computed, name, error, of)
             found |= {f"{key}: together": why} if why else {}
-    if TEST in computed.samples:
-        oval = seen_at(
-            computed, TEST, lambda at: at("solved", "10000") > 2.0 * at("difference", "10000")
-        )
-        if oval > MOSTLY:
-            found["003-3, measured: a circle at 10,000"] = (
-                "most of what lasers show is the rim's form"
-            )
+    oval = computed.share(TEST, lambda at: at("solved", "10000") > 2.0 * at("difference", "10000"))
+    if oval > MOSTLY:
+        found["003-3, measured: a circle at 10,000"] = "most of what lasers show is the rim's form"
     return found
 
 
@@ -119,11 +100,11 @@ def summary(computed: Computed) -> str:
     c = computed
     return (
         "Lasers on the rim show the cage's form as motion: over the settings that the text allows "
-        f"the equations make {middle(c, TEST, 'solved', '10000', MM)} mm of whirl difference at "
+        f"the equations make {c.middle(TEST, 'solved', '10000', MM)} mm of whirl difference at "
         "10,000 rpm (median) of a centre whose own is "
-        f"{middle(c, TEST, 'difference', '10000', MM)} mm; the paper prints 0.23. Tilt adds "
-        f"{middle(c, TEST, 'error', '4000', 100.0)} % at 4000 and "
-        f"{middle(c, TEST, 'error', '10000', 100.0)} % at 10,000 rpm, as a share of what whirl and "
+        f"{c.middle(TEST, 'difference', '10000', MM)} mm; the paper prints 0.23. Tilt adds "
+        f"{c.middle(TEST, 'error', '4000', 100.0)} % at 4000 and "
+        f"{c.middle(TEST, 'error', '10000', 100.0)} % at 10,000 rpm, as a share of what whirl and "
         f"form leave. {c.counts['reproduced']} of {len(c.found)} findings are reproduced, "
         f"{c.counts['reproduced under']} more under a condition named below, and "
         f"{c.counts['contradicted']} are contradicted."
@@ -134,7 +115,7 @@ def paper_figures(computed: Computed, p: dict[str, str]) -> list[Figure]:
     """The paper's figures and tables in its order."""
 
     def m(*of) -> str:
-        return middle(computed, *of)
+        return computed.middle(*of)
 
     form = form_share(computed)
     return [

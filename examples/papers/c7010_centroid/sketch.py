@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from judging.panels import empty, note
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle, Rectangle
 
@@ -25,13 +26,6 @@ def draw_sketch(path: Path) -> str:
     return path.name
 
 
-def _plain(ax: Axes, x: tuple[float, float], y: tuple[float, float]) -> None:
-    ax.set(xlim=x, ylim=y, aspect="equal", xticks=[], yticks=[])
-    ax.grid(False)
-    for spine in ax.spines.values():
-        spine.set_visible(False)
-
-
 def _beam(ax: Axes, start: tuple[float, float], end: tuple[float, float], name: str) -> None:
     ax.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "color": BEAM, "lw": 1.4})
     ax.annotate(name, start, color=BEAM, ha="center", va="bottom", fontsize=10)
@@ -50,20 +44,20 @@ def _side(ax: Axes) -> None:
     ends = np.array([(-14.0, 0.0), (20.0, 0.0)]) @ turn.T + (0.0, 22.0)
     ax.plot(*ends.T, color=sheet.BLUE, lw=0.9)
     ax.plot(0, 22, "o", ms=4, color=sheet.BLUE)
-    _note(ax, "O': cage's centre", (0, 21.0), ha="center", va="top", color=sheet.BLUE)
-    _note(ax, "bearing axis x", (-14, 22.4), ha="left", va="bottom")
-    _note(ax, r"tilt $\theta_y$", (20.2, 23.3), ha="left", va="center", color=sheet.BLUE)
+    note(ax, "O': cage's centre", (0, 21.0), ha="center", va="top", color=sheet.BLUE)
+    note(ax, "bearing axis x", (-14, 22.4), ha="left", va="bottom")
+    note(ax, r"tilt $\theta_y$", (20.2, 23.3), ha="left", va="center", color=sheet.BLUE)
     _beam(ax, (9.0, 47.0), (9.0, 35.2), "Y")
     _beam(ax, (23.0, 33.6), (12.0, 33.6), "")
-    _note(ax, r"$Z_1$", (23.4, 33.6), ha="left", va="center", color=BEAM)
+    note(ax, r"$Z_1$", (23.4, 33.6), ha="left", va="center", color=BEAM)
     ax.annotate("", (0, 43), (9, 43), arrowprops={"arrowstyle": "<->", "lw": 0.8})
-    _note(ax, "l (not printed)", (4.3, 43.4), ha="center", va="bottom")
+    note(ax, "l (not printed)", (4.3, 43.4), ha="center", va="bottom")
     ax.plot([0, 0], [22, 44], color="0.5", lw=0.6, ls=":")
     ax.annotate("", (-11.5, 22), (-11.5, 34.6), arrowprops={"arrowstyle": "<->", "lw": 0.8})
-    _note(ax, "R", (-12.0, 28.0), ha="right", va="center")
+    note(ax, "R", (-12.0, 28.0), ha="right", va="center")
     for text, place in (("outer ring", (-7.5, 37.3)), ("inner ring", (-7.5, 27.5))):
-        _note(ax, text, place, ha="left", va="center")
-    _plain(ax, (-16.0, 27.0), (17.5, 50.0))
+        note(ax, text, place, ha="left", va="center")
+    empty(ax, (-16.0, 27.0), (17.5, 50.0))
 
 
 def _front(ax: Axes) -> None:
@@ -76,19 +70,15 @@ def _front(ax: Axes) -> None:
     ax.add_patch(Circle((0.0, 0.0), 34.75, fill=False, ec="0.4", ls="--", lw=0.8))
     ax.plot(0, 0, "+", ms=8, color=sheet.INK)
     ax.plot(2.0, -1.5, "o", ms=4, color=sheet.BLUE)
-    _note(ax, "O", (-1.5, 1.0), ha="right", va="bottom")
-    _note(ax, "O'", (3.4, -1.5), ha="left", va="top", color=sheet.BLUE)
+    note(ax, "O", (-1.5, 1.0), ha="right", va="bottom")
+    note(ax, "O'", (3.4, -1.5), ha="left", va="top", color=sheet.BLUE)
     for k in range(3):
         spot = 32.5 * np.exp(1j * (np.pi / 2.0 + 2.0 * np.pi * k / 3.0))
         ax.plot(spot.real, spot.imag, "o", ms=7, color=BEAM)
         text = 0.82 * spot
-        _note(ax, rf"$Z_{k + 1}$", (text.real, text.imag), ha="center", va="center", color=BEAM)
+        note(ax, rf"$Z_{k + 1}$", (text.real, text.imag), ha="center", va="center", color=BEAM)
     _beam(ax, (0.0, 50.0), (0.0, 36.5), "Y")
     _beam(ax, (52.0, 0.0), (38.0, 0.0), "X")
-    _note(ax, r"oval rim: $R + a\,\cos 2(\varphi - \varphi_0)$", (0.0, -45.0), ha="center",
+    note(ax, r"oval rim: $R + a\,\cos 2(\varphi - \varphi_0)$", (0.0, -45.0), ha="center",
           va="center")  # fmt: skip
-    _plain(ax, (-48.0, 58.0), (-50.0, 58.0))
-
-
-def _note(ax: Axes, text: str, place: tuple[float, float], **how) -> None:
-    ax.text(*place, text, **{"fontsize": 10, **how})
+    empty(ax, (-48.0, 58.0), (-50.0, 58.0))

@@ -104,15 +104,6 @@ class Pictures:
     computed: object
     folder: Path
 
-    @property
-    def columns(self) -> list[str]:
-        """Readings that there are."""
-        return list(self.computed.readings)
-
-    def there(self, column: str, names: Mapping[str, str]) -> dict[str, str]:
-        """Conditions that a reading has."""
-        return {c: n for c, n in names.items() if c in self.computed.readings[column].conditions}
-
     def row(self, names: Mapping[str, str], curve: Curve, unit: str, *, below: str = "time / ms",
             title: str = "", static: int | None = None) -> list[Panel]:  # fmt: skip
         """A panel a reading: conditions overlaid, and where ``static`` names a race its
@@ -122,15 +113,18 @@ class Pictures:
             def drawn(ax: Axes) -> None:
                 reading = self.computed.readings[column]
                 if static is not None:
-                    for c in self.there(column, names):
+                    for c in reading.among(names):
                         in_equilibrium(ax, reading.run(c), static, angle="deg" in unit)
                     ax.set(xlim=(-180, 180), xticks=(-180, -90, 0, 90, 180))
-                overlaid(ax, reading, self.there(column, names), curve)
+                overlaid(ax, reading, reading.among(names), curve)
 
             return drawn
 
         scale = f"{title} {unit} {below}"
-        return [Panel(f"{title}{READINGS[c]}", below, unit, draw(c), scale) for c in self.columns]
+        return [
+            Panel(f"{title}{READINGS[c]}", below, unit, draw(c), scale)
+            for c in self.computed.readings
+        ]
 
     def forces(self, names: Mapping[str, str], title: str) -> list[Panel]:
         """One ball's force on the inner ring over its place: a panel a reading."""
@@ -139,14 +133,14 @@ class Pictures:
 
     def angles(self, names: Mapping[str, str], title: str) -> list[Panel]:
         """Contact angles of one ball over its place, of the better reading: a panel a race."""
-        column = self.columns[-1]
+        column = list(self.computed.readings)[-1]
 
         def draw(race: int) -> Callable[[Axes], None]:
             def drawn(ax: Axes) -> None:
                 reading = self.computed.readings[column]
-                for c in self.there(column, names):
+                for c in reading.among(names):
                     in_equilibrium(ax, reading.run(c), race, angle=True)
-                overlaid(ax, reading, self.there(column, names), by_place("contact_angle", race))
+                overlaid(ax, reading, reading.among(names), by_place("contact_angle", race))
                 ax.set(xlim=(-180, 180), xticks=(-180, -90, 0, 90, 180))
 
             return drawn
@@ -158,7 +152,7 @@ class Pictures:
     def orbits(self, names: Mapping[str, str], title: str, column: str) -> list[Panel]:
         """Orbits of the cage's mass centre, a panel a condition, all on one scale."""
         reading, found = self.computed.readings[column], {}
-        for c in self.there(column, names):
+        for c in reading.among(names):
             run = reading.run(c)
             found[c] = mass_centre(settled(run), run)[0] * UM
         reach = 1.05 * max((np.abs(yz).max() for yz in found.values()), default=1.0)
@@ -192,7 +186,8 @@ class Pictures:
 def draw(computed, folder: Path) -> dict[str, str]:
     """All sheets by the figures that they repeat."""
     p = Pictures(computed, folder)
-    first, last = p.columns[0], p.columns[-1]
+    columns = list(computed.readings)
+    first, last = columns[0], columns[-1]
     speeds = {c: float(c) for c in ALL_SPEEDS}
     loads = {c: float(n.split()[0].replace(",", "")) for c, n in ALL_LOADS.items()}
     steps = {c: float(n.split()[0]) for c, n in STEPS.items()}

@@ -17,7 +17,7 @@ from flexcage import register
 from flexcage.results import metrics
 from flexcage.results.lowpass import butterworth, low_passed_both_ways
 from flexcage.results.reductions import main_line, mean_frequency
-from flexcage.results.statistics import Windows, element_passes
+from flexcage.results.statistics import element_passes
 
 LOW_PASS = 2e3  # Hz, of the cage's speed beside the raw samples
 SECTOR = radians(30.0)  # to either side of the load, and of the place opposite
@@ -80,7 +80,7 @@ def cage_motion(ds, run) -> dict[str, float]:
     radius = np.linalg.norm(about, axis=1)
     shares = [main_line(x, step)[1] for x in orbit.T]
     return {
-        "drifts": drifts(radius, element_passes(ds, run.numbers)),
+        "drifts": float(element_passes(ds, run.numbers).drifts(radius, by=APART)),
         "speed": float(omega.mean()),
         "slip": float(slip.mean()),
         "slip_ripple": float(slip.std()),
@@ -92,13 +92,6 @@ def cage_motion(ds, run) -> dict[str, float]:
         "radius": float(radius.mean()),
         "distance": float(np.linalg.norm(orbit, axis=1).max()),
     }
-
-
-def drifts(x: np.ndarray, passes: Windows) -> float:
-    """1 if the halves of a record (n,) differ beyond chance and by more than ``APART``, else 0."""
-    one, other = (half.mean() for half in np.array_split(x, 2))
-    apart = abs(one - other) > APART * x.mean()
-    return float(apart and passes.mean(x).drift > 1.0)
 
 
 def balls(ds, direction: float) -> dict[str, float]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 from claims import CLAIMS, JUDGED_BY, LOADS, RACES, RAMPS, SCATTER, SPEEDS, WAVES
 from figures import DEG, PERCENT, draw
 from judging.judge import REPRODUCED, UNDER
@@ -15,37 +14,16 @@ MAPS = ("speeds", "loads", "clearance", "waves")
 MOST = 0.9  # of the settings, from which they show a mechanism
 
 
-def middle(c: Computed, name: str, output: str, condition: str, factor: float) -> str:
-    """Median of an output over the settings of a map, in three digits; "-" if there is none."""
-    if name not in c.samples:
-        return "-"
-    found = c.samples[name].means[output, condition]
-    return f"{np.nanmedian(found) * factor:.3g}" if np.isfinite(found).any() else "-"
-
-
-def line(c: Computed, name: str, output: str, conditions, factor: float = 1.0) -> str:
-    """Medians along some conditions."""
-    found = [middle(c, name, output, condition, factor) for condition in conditions]
-    return ", ".join(found[:-1]) + f" and {found[-1]}"
-
-
 def mechanisms(c: Computed) -> dict[str, str]:
     """Why findings are contradicted, each only if the settings show it."""
-
-    def shows(name: str, larger, smaller, by: float = 1.0) -> bool:
-        """Is one number (output, condition) more than ``by`` times another nearly everywhere?"""
-        if name not in c.samples:
-            return False
-        one, other = (c.samples[name].means[key] for key in (larger, smaller))
-        there = np.isfinite(one) & np.isfinite(other)
-        return bool(there.any() and (one > by * other)[there].mean() > MOST)
-
-    found = {}
     narrow, wide = RACES
-    if shows("clearance", ("inner_load", wide), ("inner_load", narrow), 1.2):
+    opened = c.share(
+        "clearance", lambda at: at("inner_load", wide) > 1.2 * at("inner_load", narrow)
+    )
+    if opened > MOST:
         why = "clearance opens the free contact angle, cos a = 1 - P_d/2A"
-        found["004-5b, angle falls at the load"] = why
-    return found
+        return {"004-5b, angle falls at the load": why}
+    return {}
 
 
 KNOWN = Table(
@@ -87,7 +65,7 @@ ASKS = (
 def summary(c: Computed) -> str:
     """Three sentences of physics."""
     held, all_of = c.counts[REPRODUCED] + c.counts[UNDER], len(c.found)
-    zeros = middle(c, "speeds", "gaps", SPEEDS[1], PERCENT)
+    zeros = c.middle("speeds", "gaps", SPEEDS[1], PERCENT, digits=3)
     return (
         "Under an axial load alone every ball is pressed; a radial load beside the printed 1500 N "
         f"frees those opposite for {zeros} % of the time at 8000 rpm (median), as the text "
@@ -101,7 +79,7 @@ def summary(c: Computed) -> str:
 
 def paper_figures(c: Computed, pictures: dict[str, str]) -> list[Figure]:
     """The paper's figures in its order."""
-    force = line(c, "speeds", "one_peak", SPEEDS)
+    force = c.middles("speeds", "one_peak", SPEEDS)
     return [
         Figure("Figures 5 and 6: cage speed, and force of a ball on the inner ring, over speed",
                "cage speed and peaks rise with the ring's speed; off the load there are zeros.",
@@ -111,25 +89,25 @@ def paper_figures(c: Computed, pictures: dict[str, str]) -> list[Figure]:
         Figure("Figures 7 to 9: orbit, deviation ratio and contact angles over speed",
                "chaotic at 4000 rpm, a circle beyond 10,000; the ratio falls; angles stay.",
                pictures["7_9"], ("004-2", "004-2b", "004-3"),
-               f"Ratios (medians) are {line(c, 'speeds', 'deviation', SPEEDS, PERCENT)} %, "
-               f"inner angles {line(c, 'speeds', 'inner_load', SPEEDS, DEG)} degrees: centrifugal "
-               "force parts the angles a little."),
+               f"Ratios (medians) are {c.middles('speeds', 'deviation', SPEEDS, PERCENT)} %, "
+               f"inner angles {c.middles('speeds', 'inner_load', SPEEDS, DEG)} degrees: "
+               "centrifugal force parts the angles a little."),
         Figure("Figures 10 to 13: load", "force rises, zeros grow, the orbit turns chaotic, angles "
                "rise at the load and fall opposite.", pictures["10_13"],
                ("004-4d", "004-4", "004-4b", "004-4c"),
-               f"Peaks (medians) are {line(c, 'loads', 'one_peak', LOADS)} N; the ring goes down "
+               f"Peaks (medians) are {c.middles('loads', 'one_peak', LOADS)} N; the ring goes down "
                "and off the balls opposite, which centrifugal force lays into the outer groove."),
         Figure("Figures 14 to 17: clearance", "zeros grow, angles fall, steady whirl goes.",
                pictures["14_17"], ("004-5", "004-5b", "004-5c"),
-               f"Zeros are {line(c, 'clearance', 'gaps', RACES, PERCENT)} % of the time off the "
+               f"Zeros are {c.middles('clearance', 'gaps', RACES, PERCENT)} % of the time off the "
                "load with the races' clearance, which opens angles at the load: "
-               f"{line(c, 'clearance', 'inner_load', RACES, DEG)} degrees (medians)."),
+               f"{c.middles('clearance', 'inner_load', RACES, DEG)} degrees (medians)."),
         Figure("Figures 18 to 25: waves of the speed, and accelerations for equal times",
                "the rectangle is worst, the sine best; with acceleration orbit, force, frequency "
                "and axial motion grow.", pictures["18_25"], ("004-6", "004-7"),
-               f"Slip swings by {line(c, 'waves', 'slip_ripple', WAVES, PERCENT)} % (medians): a "
+               f"Slip swings by {c.middles('waves', 'slip_ripple', WAVES, PERCENT)} % (medians): a "
                "step is faster than friction brings balls along. The fastest acceleration ends "
-               f"fastest: a ball's force has {line(c, 'loads', 'frequency', RAMPS)} Hz."),
+               f"fastest: a ball's force has {c.middles('loads', 'frequency', RAMPS)} Hz."),
     ]  # fmt: skip
 
 

@@ -23,7 +23,7 @@ from flexcage import InputError
 
 At = Callable[[str, str], float]  # of an output and a condition: one number
 Means = Mapping[tuple[str, str], float]  # the same of all outputs and conditions of a finding
-MOST = 120  # permutations that are all tried; of more, so many at random
+ORDERS = 120  # permutations that are all tried; of more, so many at random
 
 
 class Finding(Protocol):
@@ -306,12 +306,12 @@ def _tau(values: Sequence[float]) -> int:
 
 
 def _orders(values: Sequence[float], length: int) -> Iterator[Sequence[float]]:
-    """Orders of so many of the values: all, or ``MOST`` at random."""
-    if factorial(len(values)) // factorial(len(values) - length) <= MOST:
+    """Orders of so many of the values: all, or ``ORDERS`` at random."""
+    if factorial(len(values)) // factorial(len(values) - length) <= ORDERS:
         yield from permutations(values, length)
         return
     rng = np.random.default_rng(0)
-    for _ in range(MOST):
+    for _ in range(ORDERS):
         yield rng.permutation(values)[:length].tolist()
 
 

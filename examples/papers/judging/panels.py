@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from matplotlib.axes import Axes
 
 from flexcage.render import sheet
 
-WIDE, HIGH, SQUARE, LEFT, TOP, GAP_X, GAP_Y = 440, 220, 230, 90, 110, 85, 115  # px, of panels
+WIDE, HIGH, SQUARE, LEFT, TOP, GAP_X, GAP_Y = 440, 220, 230, 110, 110, 105, 115  # px, of panels
 
 
 @dataclass(frozen=True)
@@ -54,6 +55,17 @@ def same_scale(axes: Sequence[Axes]) -> None:
     low, high = zip(*(ax.get_ylim() for ax in axes))
     for ax in axes:
         ax.set_ylim(min(low), max(high))
+
+
+def empty(ax: Axes, x: tuple[float, float], y: tuple[float, float]) -> None:
+    """Make an axis a sheet to sketch on, in equal units between limits."""
+    ax.set(xlim=x, ylim=y, aspect="equal")
+    ax.axis("off")
+
+
+def note(ax: Axes, text: str, place: tuple[float, float], **how: Any) -> None:
+    """A text of a sketch."""
+    ax.text(*place, text, **{"fontsize": 10, "ha": "center", "va": "center", **how})
 
 
 def arrow(ax: Axes, start, end, text: str, *, colour: str = sheet.INK) -> None:

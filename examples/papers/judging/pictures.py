@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
 
 from flexcage.render import sheet
-from judging.claim_map import draw_claim_map
 
 if TYPE_CHECKING:
     from flexcage import Run
-    from judging.judge import Judged, Sample
+    from judging.judge import Sample
     from judging.readings import Reading
 
 Curve = Callable[["Run"], tuple[np.ndarray, np.ndarray]]  # of a run: time [s] and values
@@ -59,13 +57,3 @@ def starts(
         ax.plot([at + shift] * 2, [found.min(), found.max()], lw=1.2, color=colour)
         ax.plot(at + shift, found.mean(), marker, ms=5.0, color=colour,
                 label=label if k == 0 else None)  # fmt: skip
-
-
-def finding_map(
-    sample: Sample, judged: Judged, path: Path, title: str, ranges: Sequence[str]
-) -> Path:
-    """Settings by whether a finding holds there, over every unknown."""
-    return draw_claim_map(
-        path, title=title, subtitle=f"holds in {judged.share:.0%} of {judged.decided} settings",
-        names=list(sample.names), ranges=ranges, shares=sample.shares, outcomes=judged.outcomes,
-    )  # fmt: skip

@@ -36,6 +36,10 @@ class Reading:
         """Conditions that have a start."""
         return tuple(self._rows)
 
+    def among(self, names: Mapping[str, str]) -> dict[str, str]:
+        """Those of some conditions, with their names, that have a start."""
+        return {c: name for c, name in names.items() if c in self.conditions}
+
     def values(self, output: str, condition: str) -> np.ndarray:
         """An output of every start that is done (starts,), SI; NaN where the study lacks it."""
         own = output in self.results.about.outputs

@@ -5,11 +5,13 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Callable, Sequence
+from functools import partial
 from math import pi
 from pathlib import Path
 
 import numpy as np
 from claims import BENT1, BENT2, CROSSBEAM, LONGER, SHORTER, SOUND
+from judging.panels import Panel, sheet_of
 from judging.pictures import COLOURS, overlaid
 from matplotlib.axes import Axes
 from outputs import AFTER, AT, BEFORE, PLACES
@@ -29,7 +31,6 @@ NAMES = {
 }  # fmt: skip
 ROLLERS = {BEFORE: "j-1", AT: "j", AFTER: "j+1"}
 READINGS = {"hertz": "Hertz contacts", "adams": "IMPACT by ADAMS' defaults"}
-WIDE, HIGH, LEFT, TOP, GAP = 430, 260, 90, 110, 90  # px, of panels
 
 
 def corner(run: Run) -> tuple[np.ndarray, np.ndarray]:
@@ -66,27 +67,13 @@ def roller_speed(roller: int) -> Callable[[Run], tuple[np.ndarray, np.ndarray]]:
     return curve
 
 
-def sheet_of(
+def in_a_row(
     path: Path, title: str, columns: Sequence[str], unit: str, draw: Callable[[Axes, str], None],
     *, below: str = "time / ms",
 ) -> str:  # fmt: skip
-    """A row of panels, one a column, on one scale; the file's name."""
-    with sheet.style():
-        figure = sheet.new_figure(LEFT + len(columns) * (WIDE + GAP), TOP + HIGH + 80)
-        sheet.heading(figure, title, "")
-        axes = []
-        for k, column in enumerate(columns):
-            ax = sheet.axes_at(figure, (LEFT + k * (WIDE + GAP), TOP, WIDE, HIGH))
-            draw(ax, column)
-            ax.set_title(READINGS.get(column, column), loc="left", fontsize=10)
-            ax.set_xlabel(below)
-            ax.set_ylabel(unit)
-            axes.append(ax)
-        low, high = zip(*(ax.get_ylim() for ax in axes))
-        for ax in axes:
-            ax.set_ylim(min(low), max(high))
-        sheet.save(figure, path)
-    return path.name
+    """Panels, one a column, on one scale; the file's name."""
+    row = [Panel(READINGS.get(c, c), below, unit, partial(draw, column=c), unit) for c in columns]
+    return sheet_of(path, title, [row])
 
 
 def over_time(computed, folder: Path, name: str, title: str, unit: str, curve, cages) -> str:
@@ -94,7 +81,7 @@ def over_time(computed, folder: Path, name: str, title: str, unit: str, curve, c
     readings = computed.readings
 
     def draw(ax: Axes, column: str) -> None:
-        there = {c: NAMES[c] for c in cages if c in readings[column].conditions}
+        there = readings[column].among({c: NAMES[c] for c in cages})
         overlaid(ax, readings[column], there, curve)
         time, _ = curve(readings[column].run(cages[0]))
         ax.set_xlim(0.5 * time[-1], time[-1])
@@ -102,22 +89,22 @@ def over_time(computed, folder: Path, name: str, title: str, unit: str, curve, c
             ax.axhline(ROOT, color=sheet.INK, ls="--", lw=1.0)
             ax.annotate("printed", (0.51 * time[-1], ROOT), va="bottom", fontsize=8)
 
-    return sheet_of(folder / f"{name}.png", title, list(readings), unit, draw)
+    return in_a_row(folder / f"{name}.png", title, list(readings), unit, draw)
 
 
 def orbits(computed, folder: Path, name: str, title: str, cages) -> str:
     """Orbits of the cage's centre, one panel a cage, of the first reading."""
     reading = next(iter(computed.readings.values()))
 
-    def draw(ax: Axes, cage: str) -> None:
-        run = reading.run(cage)
+    def draw(ax: Axes, column: str) -> None:
+        run = reading.run(column)
         yz = metrics.orbit(metrics.settled(run.dataset, run.case.output.settle)) * UM
         ax.plot(yz[:, 1], -yz[:, 0], color=COLOURS[1], lw=0.7)
         ring = np.exp(1j * np.linspace(0.0, 2.0 * pi, 200)) * run.case.land.clearance * UM
         ax.plot(ring.real, ring.imag, color="0.6", lw=0.8, ls="--")
         ax.set(aspect="equal", xlim=(-380, 380), ylim=(-280, 280))
 
-    return sheet_of(
+    return in_a_row(
         folder / f"{name}.png", title, list(cages), "down / um", draw, below="across the load / um"
     )
 
@@ -126,14 +113,14 @@ def roller_speeds(computed, folder: Path, name: str, title: str, cages) -> str:
     """Speeds of rollers j-1, j and j+1: one panel a roller, one curve a cage."""
     reading = next(iter(computed.readings.values()))
 
-    def draw(ax: Axes, label: str) -> None:
-        roller = next(k for k, n in ROLLERS.items() if n == label)
-        there = {c: NAMES[c] for c in cages if c in reading.conditions}
+    def draw(ax: Axes, column: str) -> None:
+        roller = next(k for k, n in ROLLERS.items() if n == column)
+        there = reading.among({c: NAMES[c] for c in cages})
         overlaid(ax, reading, there, roller_speed(roller))
         time = reading.run(cages[0]).dataset["time"].values * 1e3
         ax.set_xlim(0.5 * time[-1], time[-1])
 
-    return sheet_of(folder / f"{name}.png", title, list(ROLLERS.values()), "speed / rpm", draw)
+    return in_a_row(folder / f"{name}.png", title, list(ROLLERS.values()), "speed / rpm", draw)
 
 
 def draw(computed, folder: Path) -> dict[str, str]:

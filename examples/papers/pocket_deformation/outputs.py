@@ -101,7 +101,7 @@ def cage_motion(ds, run) -> dict[str, float]:
         "reach": float(distance.std()),
         "reach_range": float(np.ptp(distance)),
         "place": float(distance.mean()),
-        "drifts": float(element_passes(ds, run.numbers).mean(whirl).drift > 1.0),
+        "drifts": float(element_passes(ds, run.numbers).drifts(whirl)),
         "whirl": float(whirl.mean()),
         "scatter": float(whirl.std()),
         "line": share,

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
-import numpy as np
 from claims import BENT1, BENT2, CLAIMS, LONGER, SCATTER, SHORTER, SOUND
 from figures import MPA, UM, draw
 from judging.judge import REPRODUCED, UNDER
@@ -14,33 +14,19 @@ from repeat import Computed, Draft, Paper
 MAP = "map"
 
 
-def middle(computed: Computed, output: str, condition: str, factor: float) -> str:
-    """Median of an output over the settings, in two digits."""
-    value = float(np.nanmedian(computed.samples[MAP].means[output, condition]) * factor)
-    return f"{value:.2g}" if abs(value) < 100 else f"{value:.0f}"
-
-
-def share_of(computed: Computed, rule) -> float:
-    """Share of settings at which a rule on numbers of the sample holds."""
-    sample = computed.samples[MAP]
-    found = rule(lambda output, condition: sample.means[output, condition])
-    return float(np.nanmean(np.where(np.isfinite(found), found, np.nan)))
-
-
 def mechanisms(computed: Computed) -> dict[str, str]:
     """Why findings are contradicted, each only if the settings show it."""
     found = {}
-    held = share_of(computed, lambda at: at("slip_at", SHORTER) > 0.5)
-    pushed = share_of(computed, lambda at: at("push_at", SHORTER) > 2.0 * at("push_sound", SHORTER))
+    shown = partial(computed.share, MAP)
+    held = shown(lambda at: at("slip_at", SHORTER) > 0.5)
+    pushed = shown(lambda at: at("push_at", SHORTER) > 2.0 * at("push_sound", SHORTER))
     if held > 0.8 and pushed > 0.8:
         why = "a pinched roller turns with the cage and carries it through every unevenness"
         found |= {"000-10, smaller at -0.3": why, "000-11, faster at -0.3": why}
-    before = share_of(computed, lambda at: at("push_before", BENT2) > 2.0 * at("push_sound", BENT2))
+    before = shown(lambda at: at("push_before", BENT2) > 2.0 * at("push_sound", BENT2))
     if before > 0.8:
         found["000-5, faster at 0.2"] = "roller j-1 alone drives the cage, once a turn"
-    loose = share_of(
-        computed, lambda at: abs(at("push_at", LONGER) / at("push_at", SOUND) - 1.0) < 0.5
-    )
+    loose = shown(lambda at: abs(at("push_at", LONGER) / at("push_at", SOUND) - 1.0) < 0.5)
     if loose > 0.8:
         why = "a side beam that moves away is touched no more than the sound one"
         found |= {f"000-10, {part}": why for part in ("wider at +0.3", "more chaotic at +0.3")}
@@ -97,8 +83,8 @@ def summary(computed: Computed) -> str:
     return (
         "A displaced beam that pinches a roller stops it from rolling: at 0.2 mm of crossbeam "
         f"roller j-1 {pinched(computed)}, and a side beam moved by -0.3 mm stresses its corners "
-        f"to {middle(computed, 'corner', SHORTER, MPA)} MPa (median of the settings), which stands "
-        "still as the paper says. A displacement that leaves clearance changes little. "
+        f"to {computed.middle(MAP, 'corner', SHORTER, MPA)} MPa (median of the settings), which "
+        "stands still as the paper says. A displacement that leaves clearance changes little. "
         f"{held} of {all_of} findings are reproduced, {computed.counts[UNDER]} of them under a "
         f"condition that is named below; {computed.counts['contradicted']} are contradicted."
     )
@@ -106,7 +92,7 @@ def summary(computed: Computed) -> str:
 
 def paper_figures(computed: Computed, pictures: dict[str, str]) -> list[Figure]:
     """The paper's figures in its order."""
-    m = lambda output, condition, factor: middle(computed, output, condition, factor)  # noqa: E731
+    m = partial(computed.middle, MAP)
     return [
         Figure("Figure 8: stress, crossbeam", "stress rises step by step with the displacement.",
                pictures["8"], ("000-0", "000-1"),

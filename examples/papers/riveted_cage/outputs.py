@@ -60,7 +60,11 @@ def evaluate(run) -> Mapping[str, float]:
     return {
         **slip,
         "slip_size": abs(slip["slip"]),
-        "drifts": drifts(run, ds),
+        "drifts": float(
+            element_passes(ds, run.numbers).drifts(
+                np.abs(ds["cage_omega"].sel(axis="x").values), beyond=2.0, by=FEW
+            )
+        ),
         "pocket_turn_largest": turn_largest(run, ds),
         "psi": inclination(ds, run.case.load.direction),
         "cage_tilt": float(metrics.tilt(ds).sel(component="total").values.mean()),
@@ -68,14 +72,6 @@ def evaluate(run) -> Mapping[str, float]:
         "ball_load": float(force[force > 0.0].mean()),
         "rivet": rivet_stress(run),
     }
-
-
-def drifts(run, ds) -> float:
-    """1 where the mean speed of the cage differs between the halves, beyond chance and ``FEW``."""
-    speed = np.abs(ds["cage_omega"].sel(axis="x").values)
-    halves = [half.mean() for half in np.array_split(speed, 2)]
-    apart = abs(halves[1] - halves[0]) > FEW * speed.mean()
-    return float(apart and element_passes(ds, run.numbers).mean(speed).drift > 2.0)
 
 
 def turn_largest(run, ds) -> float:

@@ -17,39 +17,22 @@ BOTH = ("modified 9000", "original 9000")
 MPA, PERCENT = 1e-6, 100.0
 
 
-def middle(computed: Computed, sample: str, output: str, condition: str, factor: float) -> str:
-    """Median of an output over the settings, in two digits; "-" where there is none."""
-    if sample not in computed.samples:
-        return "-"
-    found = computed.samples[sample].means[output, condition]
-    return f"{np.nanmedian(found) * factor:.2g}" if np.isfinite(found).any() else "-"
-
-
-def seen_at(computed: Computed, sample: str, rule) -> float:
-    """Share of the settings at which a rule on numbers of a sample holds; 0 without the sample."""
-    if sample not in computed.samples:
-        return 0.0
-    means = computed.samples[sample].means
-    values = np.asarray(rule(lambda output, condition: means[output, condition]), float)
-    return float(np.nanmean(values)) if np.isfinite(values).any() else 0.0
-
-
 def mechanisms(computed: Computed) -> dict[str, str]:
     """Why findings are contradicted, each only if the settings show it."""
     found = {}
-    flat = seen_at(computed, CAGE, lambda at: (
+    flat = computed.share(CAGE, lambda at: (
         abs(at(FORCE, WIDTHS[0]) / at(FORCE, BASE) - 1.0) < 0.1))  # fmt: skip
     if flat > MOSTLY:
         found["001-3, force"] = "a wider pocket is touched where the narrower one is"
-    falls = seen_at(computed, CAGE, lambda at: at(FORCE, BOTH[1]) < at(FORCE, BOTH[0]))
+    falls = computed.share(CAGE, lambda at: at(FORCE, BOTH[1]) < at(FORCE, BOTH[0]))
     if falls > MOSTLY:
         found["001-11, rivets"] = "balls have more room in the original cage, and strike it less"
-    bends = seen_at(computed, JOINT, lambda at: (
+    bends = computed.share(JOINT, lambda at: (
         at("root_tight", BASE) > 1.5 * at("eave_tight", BASE)))  # fmt: skip
     if bends > MOSTLY:
         why = "a shank that fills its hole pulls at the root of the head; its edge is unloaded"
         found["001-7, edge under interference"] = why
-    angle = seen_at(computed, CAGE, lambda at: at("angle", BOTH[0]) < -0.01)
+    angle = computed.share(CAGE, lambda at: at("angle", BOTH[0]) < -0.01)
     if angle > MOSTLY:
         why = "equation 10 leaves out the contact angle's cosine, which makes more than 1 %"
         found |= {f"001-9, {cage}": why for cage in ("modified, 1.13 %", "original, 1.84 %")}
@@ -97,9 +80,9 @@ def summary(computed: Computed) -> str:
     """Three sentences of physics."""
 
     def m(*of) -> str:
-        return middle(computed, *of)
+        return computed.middle(*of)
 
-    bowl = seen_at(computed, CAGE, _bowl)
+    bowl = computed.share(CAGE, _bowl)
     return (
         f"Over the pocket radius the ball-cage force has its least value at 3.46 mm in {bowl:.0%} "
         f"of the settings that the text allows: {m(CAGE, FORCE, RADII[0], 1.0)}, "
@@ -118,14 +101,14 @@ def summary(computed: Computed) -> str:
 def _bowl(at) -> np.ndarray:
     rule = Turn(FORCE, RADII, highest=False, at=(3.43, 3.46, 3.49))
     values = np.array([at(FORCE, c) for c in RADII]).T
-    return np.array([rule.so(list(v)) if np.isfinite(v).all() else np.nan for v in values], float)
+    return np.array([rule.so(list(v)) for v in values])
 
 
 def paper_figures(computed: Computed, p: dict[str, str]) -> list[Figure]:
     """The paper's figures in its order."""
 
     def m(*of) -> str:
-        return middle(computed, *of)
+        return computed.middle(*of)
 
     return [
         Figure("Figure 5: pocket radius", "force and stress are least at 3.46 mm, slip rises, tilt "

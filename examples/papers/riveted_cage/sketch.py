@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from judging.panels import empty, note
 from matplotlib.axes import Axes
 from matplotlib.patches import Arc, Circle, Rectangle
 
@@ -27,17 +28,6 @@ def draw_sketch(path: Path) -> str:
     return path.name
 
 
-def _plain(ax: Axes, x: tuple[float, float], y: tuple[float, float]) -> None:
-    ax.set(xlim=x, ylim=y, aspect="equal", xticks=[], yticks=[])
-    ax.grid(False)
-    for spine in ax.spines.values():
-        spine.set_visible(False)
-
-
-def _note(ax: Axes, text: str, x: float, y: float, **how) -> None:
-    ax.text(x, y, text, **{"fontsize": 10, "ha": "center", "va": "center", **how})
-
-
 def _arrow(ax: Axes, start: tuple[float, float], end: tuple[float, float], **how) -> None:
     ax.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "lw": 1.5, "color": LOAD, **how})
 
@@ -49,18 +39,18 @@ def _rig(ax: Axes) -> None:
             ax.add_patch(Rectangle((x, y), 1.3, 1.4, fc="white", ec="0.3"))
             ax.plot([x, x + 1.3], [y, y + 1.4], color="0.3", lw=0.7)
             ax.plot([x, x + 1.3], [y + 1.4, y], color="0.3", lw=0.7)
-        _note(ax, name, x + 0.65, 2.3, fontsize=9)
+        note(ax, name, (x + 0.65, 2.3), fontsize=9)
     _arrow(ax, (15.85, 10.4), (15.85, 7.3))
-    _note(ax, "F", 16.6, 9.6, color=LOAD)
+    note(ax, "F", (16.6, 9.6), color=LOAD)
     _arrow(ax, (8.65, 0.3), (8.65, 1.8))
     _arrow(ax, (4.65, 1.8), (4.65, 0.3))
     ax.annotate("", (8.65, 8.2), (15.85, 8.2), arrowprops={"arrowstyle": "<->", "lw": 0.8})
-    _note(ax, "lever a", 12.2, 8.7)
-    _note(ax, r"$F a$ = 82.5 N m;  a = 0.1 m: F = 825 N", 9.0, 11.0)
+    note(ax, "lever a", (12.2, 8.7))
+    note(ax, r"$F a$ = 82.5 N m;  a = 0.1 m: F = 825 N", (9.0, 11.0))
     ax.annotate("", (1.2, 7.2), (1.2, 2.8), arrowprops={"arrowstyle": "->", "lw": 1.2,
                 "connectionstyle": "arc3,rad=-0.5"})  # fmt: skip
-    _note(ax, "9000 rpm", 1.2, 7.8, fontsize=9)
-    _plain(ax, (-1.0, 18.5), (-0.3, 11.8))
+    note(ax, "9000 rpm", (1.2, 7.8), fontsize=9)
+    empty(ax, (-1.0, 18.5), (-0.3, 11.8))
 
 
 def _section(ax: Axes) -> None:
@@ -76,16 +66,16 @@ def _section(ax: Axes) -> None:
             ax.plot(3.46 * x, 13 + 3.46 * y, color=CAGE, lw=0)
         ax.fill_between([side * 2.0, side * 3.1], [11.1, 11.1], [14.9, 14.9], color=CAGE, lw=0.5)
     ax.annotate("", (-3.1, 19.6), (3.1, 19.6), arrowprops={"arrowstyle": "<->", "lw": 0.8})
-    _note(ax, "w", 0, 20.2)
-    _note(ax, r"$D_w$", 0, 13.0)
-    _note(ax, r"$f_e D_w$", 3.5, 17.0, fontsize=9)
-    _note(ax, r"$f_i D_w$", 3.5, 9.0, fontsize=9)
+    note(ax, "w", (0, 20.2))
+    note(ax, r"$D_w$", (0, 13.0))
+    note(ax, r"$f_e D_w$", (3.5, 17.0), fontsize=9)
+    note(ax, r"$f_i D_w$", (3.5, 9.0), fontsize=9)
     ax.plot([-6, 6], [4.5, 4.5], color="0.3", ls="-.", lw=0.8)
     ax.add_patch(Arc((0, 4.5), 5, 5, theta1=-35, theta2=35, color=LOAD, lw=1.5))
-    _note(ax, "moment", 4.4, 5.4, color=LOAD, fontsize=9)
+    note(ax, "moment", (4.4, 5.4), color=LOAD, fontsize=9)
     ax.annotate("", (-5.6, 4.5), (-5.6, 13), arrowprops={"arrowstyle": "<->", "lw": 0.8})
-    _note(ax, r"$d_m/2$", -6.9, 8.7)
-    _plain(ax, (-8.0, 8.0), (3.4, 21.0))
+    note(ax, r"$d_m/2$", (-6.9, 8.7))
+    empty(ax, (-8.0, 8.0), (3.4, 21.0))
 
 
 def _pocket(ax: Axes) -> None:
@@ -103,9 +93,9 @@ def _pocket(ax: Axes) -> None:
         for y in (-1.5, 0.8):
             ax.add_patch(Rectangle((x - 1.05, y), 2.1, 0.7, fc=STEEL, ec="0.3"))
     ax.annotate("", (-2.45, 2.45), (0, 0), arrowprops={"arrowstyle": "->", "lw": 0.8})
-    _note(ax, r"$R_p$", -0.4, 1.4)
+    note(ax, r"$R_p$", (-0.4, 1.4))
     _arrow(ax, (2.0, 0), (3.4, 0))
-    _note(ax, r"$Q_c$", 2.2, 0.7, color=LOAD)
-    _note(ax, "rivet 1.2 mm: weak at its head's root", 0, -5.6, fontsize=8)
-    _note(ax, "t", -8.0, 0.4)
-    _plain(ax, (-8.6, 8.6), (-6.5, 6.0))
+    note(ax, r"$Q_c$", (2.2, 0.7), color=LOAD)
+    note(ax, "rivet 1.2 mm: weak at its head's root", (0, -5.6), fontsize=8)
+    note(ax, "t", (-8.0, 0.4))
+    empty(ax, (-8.6, 8.6), (-6.5, 6.0))

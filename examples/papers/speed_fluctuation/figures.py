@@ -58,22 +58,14 @@ class Pictures:
 
     computed: object
 
-    @property
-    def columns(self) -> list[str]:
-        """Readings that there are."""
-        return list(self.computed.readings)
-
-    def there(self, column: str, names: Mapping[str, str]) -> dict[str, str]:
-        """Conditions that a reading has."""
-        return {c: n for c, n in names.items() if c in self.computed.readings[column].conditions}
-
     def row(self, names: Mapping[str, str], curve: Curve, unit: str, *, whole: bool = False,
             marked: bool = False) -> list[Panel]:  # fmt: skip
         """A panel a reading: conditions overlaid, the last turns or all; printed speeds marked."""
 
         def draw(column: str) -> Callable[[Axes], None]:
             def drawn(ax: Axes) -> None:
-                overlaid(ax, self.computed.readings[column], self.there(column, names), curve)
+                reading = self.computed.readings[column]
+                overlaid(ax, reading, reading.among(names), curve)
                 end = max(line.get_xdata()[-1] for line in ax.lines)
                 begin = 0.0 if whole else max(end - LAST, 0.0)
                 ax.set_xlim(begin, end)
@@ -85,15 +77,17 @@ class Pictures:
 
             return drawn
 
-        return [Panel(READINGS[c], "time / ms", unit, draw(c), unit) for c in self.columns]
+        return [
+            Panel(READINGS[c], "time / ms", unit, draw(c), unit) for c in self.computed.readings
+        ]
 
     def orbits(self, names: Mapping[str, str], body: str, column: str, factor: float,
                unit: str) -> list[Panel]:  # fmt: skip
         """Orbits of the cage about the axis, or of the inner ring about its mean place: a panel a
         condition, all on one scale; the load is down."""
-        found = {}
-        for c in self.there(column, names):
-            yz = metrics.centre_of(settled(self.computed.readings[column].run(c)), body) * factor
+        reading, found = self.computed.readings[column], {}
+        for c in reading.among(names):
+            yz = metrics.centre_of(settled(reading.run(c)), body) * factor
             found[c] = yz - (yz.mean(axis=0) if body == "inner" else 0.0)
         reach = 1.05 * max((np.abs(yz).max() for yz in found.values()), default=1.0)
 
@@ -110,9 +104,11 @@ class Pictures:
     def pocket_forces(self, names: Mapping[str, str], column: str) -> list[Panel]:
         """Force between one ball and the cage over the last turns, a panel a condition."""
 
+        reading = self.computed.readings[column]
+
         def draw(c: str) -> Callable[[Axes], None]:
             def drawn(ax: Axes) -> None:
-                ds = self.computed.readings[column].run(c).dataset
+                ds = reading.run(c).dataset
                 time = ds["time"].values * 1e3
                 force = metrics.pocket_peaks(ds).values.max(axis=2)[:, 0]
                 ax.plot(time, force, color=TINTS[column], lw=0.6)
@@ -121,7 +117,7 @@ class Pictures:
             return drawn
 
         return [Panel(f"{names[c]}, {READINGS[column]}", "time / ms", "force / N", draw(c), column,
-                      square=True) for c in self.there(column, names)]  # fmt: skip
+                      square=True) for c in reading.among(names)]  # fmt: skip
 
     def over(self, output: str, axis: Mapping[str, float], factor: float, unit: str, below: str,
              table: str = "") -> Panel:  # fmt: skip
@@ -145,7 +141,7 @@ class Pictures:
 def draw(computed, folder: Path) -> dict[str, str]:
     """All sheets by the figures that they repeat."""
     p = Pictures(computed)
-    first = p.columns[0]
+    first = next(iter(computed.readings))
     a, n = "A / %", "N"
     still = {CONSTANT: "constant speed"}
 

@@ -14,7 +14,7 @@ import numpy as np
 from flexcage import register
 from flexcage.results import metrics
 from flexcage.results.reductions import main_line
-from flexcage.results.statistics import Windows, element_passes
+from flexcage.results.statistics import element_passes
 
 KEPT = 1e-3  # s, between the paper's own samples (Table 4: D3PLOT, D3THDT)
 TURN = 30e-3  # s, of the ring at 2000 rpm
@@ -78,7 +78,7 @@ def evaluate(run) -> Mapping[str, float]:
     table_5 = kinematics(ds, case.bearing, float(omega.mean()))
     away = metrics.whirl_radius(ds, about="axis")
     return {
-        "drifts": drifts(away, element_passes(ds, run.numbers)),
+        "drifts": float(element_passes(ds, run.numbers).drifts(away, by=APART)),
         "speed_whole": float(from_start.mean()),
         "speed": float(omega.mean()),
         "swing": half_range(omega[::every]),
@@ -105,13 +105,6 @@ def evaluate(run) -> Mapping[str, float]:
         "tilt": float(metrics.tilt(ds).sel(component="total").values.mean()),
         "slip": sliding(ds, case.bearing),
     }
-
-
-def drifts(x: np.ndarray, passes: Windows) -> float:
-    """1 if the halves of a record (n,) differ beyond chance and by more than ``APART``, else 0."""
-    one, other = (half.mean() for half in np.array_split(x, 2))
-    apart = abs(one - other) > APART * x.mean()
-    return float(apart and passes.mean(x).drift > 1.0)
 
 
 def orbital_speeds(ds) -> np.ndarray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -25,29 +26,9 @@ from repeat import Computed, Draft, Paper
 MOST = 0.9  # of the settings, from which they show a mechanism
 
 
-def values(c: Computed, name: str, output: str, condition: str) -> np.ndarray:
-    """An output over the settings of a map, without those that lack it."""
-    if name not in c.samples:
-        return np.array([])
-    found = c.samples[name].means[output, condition]
-    return found[np.isfinite(found)]
-
-
-def middle(c: Computed, name: str, output: str, condition: str, factor: float) -> str:
-    """Median over the settings, in three digits; "-" if there is none."""
-    found = values(c, name, output, condition)
-    return f"{np.median(found) * factor:.3g}" if len(found) else "-"
-
-
-def line(c: Computed, output: str, conditions, factor: float = 1.0) -> str:
-    """Medians of the model's map along some conditions."""
-    found = [middle(c, "model", output, condition, factor) for condition in conditions]
-    return ", ".join(found[:-1]) + f" and {found[-1]}"
-
-
 def rpm(c: Computed, name: str, output: str) -> str:
     """Median and middle 80 % of a mean speed at constant speed."""
-    found = values(c, name, output, CONSTANT) * RPM
+    found = c.numbers(name, output, CONSTANT) * RPM
     if not len(found):
         return "-"
     low, mid, high = np.percentile(found, (10.0, 50.0, 90.0))
@@ -57,18 +38,13 @@ def rpm(c: Computed, name: str, output: str) -> str:
 def mechanisms(c: Computed) -> dict[str, str]:
     """Why findings are contradicted, each only if the settings show it."""
     found = {}
-    slip = values(c, "model", "slip", CONSTANT)
-    if len(slip) and (np.abs(slip) < 0.005).mean() > MOST:
+    if c.share("model", lambda at: abs(at("slip", CONSTANT)) < 0.005) > MOST:
         found["002-0b, its size"] = "3500 N press all balls, which roll: nothing slips by 1.4 %"
-    if c.samples.get("model"):
-        means = c.samples["model"].means
-        balls, swing = (means[name, A6] for name in ("ball_gain", "swing"))
-        there = np.isfinite(balls) & np.isfinite(swing)
-        if there.any() and (swing > 1.5 * balls)[there].mean() > MOST:
-            why = "the cage swings in its pockets beyond the balls, which do as the ring does"
-            found |= {"002-1b, close at 6 %": why, "002-1b, close at 9 %": why, "002-7, same": why}
-        if (np.abs(means["ball_gain", A3] / 0.03 - 1.0) < 0.1).mean() > MOST:
-            found["002-2, no period"] = "balls roll, so that they carry 3 % as they carry 9 %"
+    if c.share("model", lambda at: at("swing", A6) > 1.5 * at("ball_gain", A6)) > MOST:
+        why = "the cage swings in its pockets beyond the balls, which do as the ring does"
+        found |= {"002-1b, close at 6 %": why, "002-1b, close at 9 %": why, "002-7, same": why}
+    if c.share("model", lambda at: abs(at("ball_gain", A3) / 0.03 - 1.0) < 0.1) > MOST:
+        found["002-2, no period"] = "balls roll, so that they carry 3 % as they carry 9 %"
     return found
 
 
@@ -113,17 +89,19 @@ def summary(c: Computed) -> str:
     return (
         "Pressed by 3500 N all balls roll, so they take over the ring's fluctuation at once, and "
         "the cage follows them within its play: its fluctuation is the ring's, plus what the play "
-        f"leaves, {line(c, 'swing', OVER_A, PERCENT)} % at 0, 3, 6 and 9 % (medians; printed 2.89 "
-        "at 0 and 6.4 or 6.5 at 6 %), which bounds the play of the paper's pockets. The cage's "
-        f"mean speed stays at that of rolling, {rpm(c, 'model', 'speed')} rpm in the model, where "
-        f"922 are printed, and {rpm(c, 'bearing', 'speed')} rpm over geometries that the tested "
-        f"bearing (927) may have. {held} of {all_of} findings are reproduced, {c.counts[UNDER]} of "
-        f"them under a condition that is named; {c.counts['contradicted']} are contradicted."
+        f"leaves, {c.middles('model', 'swing', OVER_A, PERCENT)} % at 0, 3, 6 and 9 % (medians; "
+        "printed 2.89 at 0 and 6.4 or 6.5 at 6 %), which bounds the play of the paper's pockets. "
+        f"The cage's mean speed stays at that of rolling, {rpm(c, 'model', 'speed')} rpm in the "
+        f"model, where 922 are printed, and {rpm(c, 'bearing', 'speed')} rpm over geometries that "
+        f"the tested bearing (927) may have. {held} of {all_of} findings are reproduced, "
+        f"{c.counts[UNDER]} of them under a condition that is named; "
+        f"{c.counts['contradicted']} are contradicted."
     )
 
 
 def paper_figures(c: Computed, pictures: dict[str, str]) -> list[Figure]:
     """The paper's figures in its order."""
+    along = partial(c.middles, "model")
     return [
         Figure("Figures 4, 5 and Table 5: cage speed at a constant 2000 rpm",
                "922 rpm by LS-DYNA, 928 by ADAMS, 927 by test, 935 by theory.", pictures["5"],
@@ -133,26 +111,26 @@ def paper_figures(c: Computed, pictures: dict[str, str]) -> list[Figure]:
         Figure("Figure 6, Table 6: cage speed over A",
                "periodic at large A, hardly at small; the mean stays.", pictures["6"],
                ("002-1", "002-1b", "002-1c", "002-2", "002-4c"),
-               f"Means (medians) are {line(c, 'speed', OVER_A, RPM)} rpm. Triangles are printed."),
+               f"Means (medians) are {along('speed', OVER_A, RPM)} rpm. Triangles are printed."),
         Figure("Figures 7 to 9: orbit and force of the cage over A",
                "an ellipse at small A, irregular and slightly wider at large A; forces rise.",
                pictures["7_9"], ("002-3", "002-3b", "002-4"),
-               f"Distances (medians) are {line(c, 'distance', OVER_A, UM)} um, forces "
-               f"{line(c, 'one_force', OVER_A)} N: a faster change of speed takes more force."),
+               f"Distances (medians) are {along('distance', OVER_A, UM)} um, forces "
+               f"{along('one_force', OVER_A)} N: a faster change of speed takes more force."),
         Figure("Figures 10 to 12: the inner ring over A",
                "its orbit widens; forces follow the place of a ball and fluctuate more.",
                pictures["10_12"], ("002-5", "002-6"),
-               f"The range is {line(c, 'ring_range', OVER_A, NM)} nm (medians), beside the load's "
+               f"The range is {along('ring_range', OVER_A, NM)} nm (medians), beside the load's "
                "own offset of the ring: right in sign, and nanometres in size."),
         Figure("Figure 13, Table 7: cage speed over N",
                "a floor at constant speed; the same fluctuation at any N.", pictures["13"],
                ("002-2b", "002-7"),
-               f"Fluctuations (medians) are {line(c, 'swing', WAVES, PERCENT)} % at N = 1, 2, 3."),
+               f"Fluctuations (medians) are {along('swing', WAVES, PERCENT)} % at N = 1, 2, 3."),
         Figure("Figures 14 to 19: cage and inner ring over N",
                "both orbits widen, the cage's is more chaotic, forces grow.", pictures["14_19"],
                ("002-8", "002-9"),
-               f"Forces of the cage (medians) are {line(c, 'one_force', OVER_N)} N: acceleration "
-               f"goes with N. The ring's range is {line(c, 'ring_range', OVER_N, NM)} nm."),
+               f"Forces of the cage (medians) are {along('one_force', OVER_N)} N: acceleration "
+               f"goes with N. The ring's range is {along('ring_range', OVER_N, NM)} nm."),
     ]  # fmt: skip
 
 

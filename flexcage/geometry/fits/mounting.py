@@ -237,24 +237,19 @@ def _seats(
 
 def _on_shaft(bearing: Bearing, fit: Fit) -> Three:
     """Interferences of shaft and bore, the largest first: it leaves the least clearance."""
-    if fit.shaft_interference is not None:
-        return (fit.shaft_interference,) * 3
-    if not fit.shaft:
-        return 0.0, 0.0, 0.0
+    if fit.shaft_interference is not None or not fit.shaft:
+        return (fit.shaft_interference or 0.0,) * 3
     shaft = shaft_limits(fit.shaft, bearing.bore, "fit.shaft")
-    bore = bearing_limits(bearing.bore, outside=False, where="fit.shaft")
-    return _of_limits(shaft, bore)
+    return _of_limits(shaft, bearing_limits(bearing.bore, outside=False, where="fit.shaft"))
 
 
 def _in_housing(bearing: Bearing, fit: Fit) -> Three:
     """Interferences of the outer ring and the housing, likewise."""
-    if fit.housing_interference is not None:
-        return (fit.housing_interference,) * 3
-    if not fit.housing:
-        return 0.0, 0.0, 0.0
-    hole = hole_limits(fit.housing, bearing.outside_diameter, "fit.housing")
-    ring = bearing_limits(bearing.outside_diameter, outside=True, where="fit.housing")
-    return _of_limits(ring, hole)
+    if fit.housing_interference is not None or not fit.housing:
+        return (fit.housing_interference or 0.0,) * 3
+    size, where = bearing.outside_diameter, "fit.housing"
+    hole = hole_limits(fit.housing, size, where)
+    return _of_limits(bearing_limits(size, outside=True, where=where), hole)
 
 
 def _of_limits(inside: tuple[float, float], hole: tuple[float, float]) -> Three:

@@ -23,7 +23,7 @@ def clearance_note(mounting: Mounting) -> str:
         before, after = (f"{degrees(angle):.4g} deg" for angle in mounting.angles)
         parts.append(
             f"Free contact angle {before} before mounting, {after} in operation: the inner ring "
-            f"meets its balls {1e6 * mounting.approach:.3g} um earlier along the axis"
+            f"meets its balls {um(mounting.approach)} earlier along the axis"
         )
     return "\n".join(parts)
 
@@ -33,7 +33,9 @@ def clearance_lines(mounting: Mounting) -> list[list[str]]:
     varies = any(part.values[0] != part.values[2] for part in mounting.parts)
     kept = range(3) if varies else (MIDDLE,)
     lines = [["clearance, um", *(_FITTED[k] if varies else "" for k in kept)]]
-    return lines + [[part.title, *(_um(part.values[k]) for k in kept)] for part in mounting.parts]
+    return lines + [
+        [part.title, *(_column(part.values[k]) for k in kept)] for part in mounting.parts
+    ]
 
 
 def _grip(grip: Grip, k: int) -> str:
@@ -42,10 +44,15 @@ def _grip(grip: Grip, k: int) -> str:
     sign = 1.0 if word == "interference" else -1.0
     if first == late == 0.0:
         return "neither gap nor interference"
-    given, left = (f"{1e6 * sign * value:.3g} um" for value in (first, late))
+    given, left = (um(sign * value) for value in (first, late))
     text = f"{word} {given} as toleranced, {left} in operation"
     return f"{text}, {grip.pressure[k] / 1e6:.3g} MPa" if grip.pressure[k] else text
 
 
-def _um(value: float) -> str:
+def um(value: float) -> str:
+    """A length [m] of a sentence on fits, in micrometres and three digits."""
+    return f"{1e6 * value:.3g} um"
+
+
+def _column(value: float) -> str:
     return f"{1e6 * value:.2f}" if abs(value) >= 5e-9 else "0.00"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from flexcage.geometry.fits.mounting import Grip, Mounting
+from flexcage.geometry.fits.telling import um
 from flexcage.results.figures.figure import FigureTable, Found
 
 _ALIKE = 1e-10  # m
@@ -12,17 +13,13 @@ _ALIKE = 1e-10  # m
 
 def _part(key: str, mounting: Mounting) -> Found:
     least, _, largest = values = mounting.part(key).values
-    within = f"{_um(least)} to {_um(largest)} within tolerances" if largest - least > _ALIKE else ""
+    within = f"{um(least)} to {um(largest)} within tolerances" if largest - least > _ALIKE else ""
     return Found(values[mounting.taken], within)
-
-
-def _um(value: float) -> str:
-    return f"{1e6 * value:.3g} um"
 
 
 def _interference(grip: Grip, mounting: Mounting) -> Found:
     given = grip.interference[mounting.taken]
-    return Found(grip.operating[mounting.taken], f"{_um(given)} as toleranced")
+    return Found(grip.operating[mounting.taken], f"{um(given)} as toleranced")
 
 
 # fmt: off
