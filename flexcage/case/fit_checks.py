@@ -53,11 +53,11 @@ def _find_closed(bearing: Bearing, mounting: Mounting) -> Iterator[Finding]:
     try:
         bearing.in_place(mounting.changed).check()
     except InputError as exc:
-        left = describe(round(mounting.operating, 10), "um")
-        before = describe(round(mounting.part("initial").values[mounting.taken], 10), "um")
+        left, before = um(mounting.operating), um(mounting.part("initial").values[mounting.taken])
         lost = f"[fit] leaves a radial clearance of {left} of {before} before mounting, but "
         reason = str(exc).partition(", but ")[2] if exc.where.startswith("bearing.") else str(exc)
-        yield "fit", lost + (reason or str(exc))
+        what = (reason or str(exc)).partition(";")[0].rstrip(".")
+        yield "fit", f"{lost}{what}; take looser fits, or a larger class (fit.clearance)."
 
 
 def questioned_fit(case: LoadedSections) -> Iterator[str]:
