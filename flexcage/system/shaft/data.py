@@ -1,0 +1,75 @@
+"""The arrays by which kernels know a rotor and the bearings on it.
+
+A rotor has a frame that does not spin with it, as a ring's: the centre (x, y, z) of its mass in
+space, skew and tilt; and, if it is elastic, modes of unit mass in bending, free at both ends. Its
+spin is prescribed. Its unknowns follow those of all bearings in y: q (5 + n), then u (5 + n), which
+are v (3), the angular velocities about its second and third axis, and the rates of its modes.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+RIGID_ROTOR = 5  # coordinates of the frame: x, y, z, skew, tilt
+#: Powers beside those of the bearings: what loads and gravity do on the rotor, its modes' damping,
+#: and what goes into the inner rings.
+SHAFT_POWERS = ("load", "gravity", "damping", "to_bearings")
+LOADS, WEIGHT, DAMPED, TO_BEARINGS = range(4)
+
+
+class ShaftData(NamedTuple):
+    """A rotor with n modes on b bearings; N = 5 + n."""
+
+    first: np.ndarray  # (b + 1,) where the unknowns of each bearing begin in y; last: the rotor's
+    inner_q: np.ndarray  # (b,) places of each inner ring's first coordinate in y
+    inner_u: np.ndarray  # (b,) and of its first velocity
+    lam: np.ndarray  # (b,) and of the multipliers of what holds it
+    ring: np.ndarray  # (b, 2) mass and transverse inertia of each inner ring
+    place: np.ndarray  # (b,) of each bearing along the axis, from the centre of mass [m]
+    # (b, 5) signs of an inner ring's coordinates in its bearing's frame over those in the rotor's:
+    # 1, or (-1, 1, -1, 1, -1) of a bearing that faces the other way, turned by half a turn about y
+    sign: np.ndarray
+    shape: np.ndarray  # (b, 5, n) modes there: displacements in space, skew and tilt
+    inertia: np.ndarray  # (3,) of the rotor alone: mass, axial and transverse inertia
+    stiffness: np.ndarray  # (n,) of the modes: w^2
+    damping: np.ndarray  # (n,) 2 zeta w
+    gyro: np.ndarray  # (n, n) skew: of the modes at unit spin
+    gyro_turn: np.ndarray  # (n, 2) the same with the frame's two turns
+    gravity: np.ndarray  # (3,)
+    load: np.ndarray  # (N,) generalised forces of constant loads, in a rotor that is straight
+    unbalance: np.ndarray  # (2, N) of unit forces along y and z, times masses and eccentricities
+    phase: np.ndarray  # (2, N) the same for those a quarter of a turn ahead
+    speed: np.ndarray  # (2, m) table of time and speed
+    angle: np.ndarray  # (m,) angle at the table's times
+    wave: np.ndarray  # (4,) of the speed
+    # workspace
+    axes: np.ndarray  # (3, 3) rows in space: the rotor's axis, its second and third
+    reach: np.ndarray  # (b, 5, N) from the rotor's velocities to those of inner rings
+    apart: np.ndarray  # (b, 5) accelerations of the rings while the rotor's velocities stay
+    borne: np.ndarray  # (b, 5) forces on each inner ring, without the rotor's
+    given: np.ndarray  # (b, 5) the rotor's forces on each inner ring, found
+    matrix: np.ndarray  # (N, N)
+    pivot: np.ndarray  # (N,)
+    x: np.ndarray  # (N,) accelerations
+
+
+def no_modes(bearings: int) -> dict[str, np.ndarray]:
+    """The fields of a rigid rotor's modes."""
+    z = np.zeros
+    return {
+        "shape": z((bearings, RIGID_ROTOR, 0)), "stiffness": z(0), "damping": z(0),
+        "gyro": z((0, 0)), "gyro_turn": z((0, 2)),
+    }  # fmt: skip
+
+
+def workspace(bearings: int, modes: int) -> dict[str, np.ndarray]:
+    """The fields that the kernels write."""
+    z, n = np.zeros, RIGID_ROTOR + modes
+    return {
+        "axes": z((3, 3)), "reach": z((bearings, RIGID_ROTOR, n)),
+        "apart": z((bearings, RIGID_ROTOR)), "borne": z((bearings, RIGID_ROTOR)),
+        "given": z((bearings, RIGID_ROTOR)), "matrix": z((n, n)), "pivot": z(n, np.int64),
+        "x": z(n),
+    }  # fmt: skip
