@@ -49,6 +49,7 @@ class _Attempt(NamedTuple):
     times: np.ndarray  # (n,) [s]
     ys: np.ndarray  # (n, size)
     yds: np.ndarray  # (n, size)
+    quads: np.ndarray  # (n, powers)
     arrays: list[dict[str, np.ndarray]]  # of each recorder, of ``done`` samples of the main grid
     steps: np.ndarray  # rows of the log
     done: int
@@ -225,7 +226,7 @@ class Integration:
             arrays = [r.arrays(ys[main], yds[main], quads[main]) for r in self.recorders]
         whole = outcome == DONE and not deep
         weighed = self._weighed(arrays) if whole else NEITHER
-        return _Attempt(times, ys, yds, arrays, steps, done, outcome, deep, weighed)
+        return _Attempt(times, ys, yds, quads, arrays, steps, done, outcome, deep, weighed)
 
     def _weighed(self, arrays: list[dict[str, np.ndarray]]) -> Weighed:
         """What a block did to the balance of any bearing."""
@@ -273,14 +274,14 @@ class Integration:
                 recorder.balance.keep(found.done)
                 whole = self._checkpoint if found.whole else None
                 recorder.keep(index, arrays, found.yds[: last + 1], whole, steps)
-            self.keep_more(found.ys[: last + 1], found.yds[: last + 1])
+            self.keep_more(found.ys[: last + 1], found.quads[: last + 1])
         if found.deep and found.done:
             self.store.keep_last(
                 {"time": found.times[last], "y": found.ys[last], "yd": found.yds[last]}
             )
 
-    def keep_more(self, ys: np.ndarray, yds: np.ndarray) -> None:
-        """Keep what else there is of the fine samples of a block."""
+    def keep_more(self, ys: np.ndarray, quads: np.ndarray) -> None:
+        """Keep what else there is of the fine samples of a block, and their integrals."""
 
     def _stopped(self, outcome: int) -> str:
         """Keep the last accepted state; the sentence that says when and where this was."""

@@ -8,6 +8,8 @@ are v (3), the angular velocities about its second and third axis, and the rates
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -31,6 +33,8 @@ class ShaftData(NamedTuple):
     # (b, 5) signs of an inner ring's coordinates in its bearing's frame over those in the rotor's:
     # 1, or (-1, 1, -1, 1, -1) of a bearing that faces the other way, turned by half a turn about y
     sign: np.ndarray
+    # (b,) by how much each inner ring is pressed along its bearing's x, as spacers or fits make it
+    offset: np.ndarray
     shape: np.ndarray  # (b, 5, n) modes there: displacements in space, skew and tilt
     inertia: np.ndarray  # (3,) of the rotor alone: mass, axial and transverse inertia
     stiffness: np.ndarray  # (n,) of the modes: w^2
@@ -53,23 +57,50 @@ class ShaftData(NamedTuple):
     matrix: np.ndarray  # (N, N)
     pivot: np.ndarray  # (N,)
     x: np.ndarray  # (N,) accelerations
+    kept: np.ndarray  # (samples, b, 5) the rotor's forces at the samples of a block
 
 
-def no_modes(bearings: int) -> dict[str, np.ndarray]:
-    """The fields of a rigid rotor's modes."""
-    z = np.zeros
-    return {
-        "shape": z((bearings, RIGID_ROTOR, 0)), "stiffness": z(0), "damping": z(0),
-        "gyro": z((0, 0)), "gyro_turn": z((0, 2)),
-    }  # fmt: skip
+@dataclass(frozen=True, kw_only=True)
+class Rotor:
+    """A rotor in its b bearings, with n modes; generalised forces are those on its 5 + n
+    velocities, of a rotor that is straight."""
+
+    place: np.ndarray  # (b,) of the bearings along the axis, from its centre of mass [m]
+    reversed: np.ndarray  # (b,) booleans: which of them face the other way
+    offset: np.ndarray  # (b,) by how much they are pressed in, along their own x [m]
+    inertia: np.ndarray  # (3,) mass, axial and transverse inertia, without inner rings
+    gravity: np.ndarray  # (3,)
+    load: np.ndarray  # (5 + n,) of what does not change
+    unbalance: np.ndarray  # (2, 5 + n) at 1 rad/s, of forces along y and along z
+    phase: np.ndarray  # (2, 5 + n) the same of those that are a quarter of a turn ahead
+    shape: np.ndarray  # (b, 5, n) displacements, and skew and tilt, of the modes in the bearings
+    stiffness: np.ndarray  # (n,) [1/s^2]
+    damping: np.ndarray  # (n,) [1/s]
+    gyro: np.ndarray  # (n, n) at 1 rad/s
+    gyro_turn: np.ndarray  # (n, 2)
 
 
-def workspace(bearings: int, modes: int) -> dict[str, np.ndarray]:
-    """The fields that the kernels write."""
+def stiff_rotor(
+    *, place: Sequence[float], inertia: Sequence[float], gravity: np.ndarray, load: np.ndarray,
+    reversed: Sequence[bool] = (), offset: Sequence[float] = (),
+) -> Rotor:  # fmt: skip
+    """A rotor without modes, in balance."""
+    z, count = np.zeros, len(place)
+    return Rotor(
+        place=np.array(place, float), reversed=np.array(reversed or [False] * count),
+        offset=np.array(offset or [0.0] * count), inertia=np.array(inertia, float),
+        gravity=gravity, load=np.array(load, float), unbalance=z((2, RIGID_ROTOR)),
+        phase=z((2, RIGID_ROTOR)), shape=z((count, RIGID_ROTOR, 0)), stiffness=z(0), damping=z(0),
+        gyro=z((0, 0)), gyro_turn=z((0, 2)),
+    )  # fmt: skip
+
+
+def workspace(bearings: int, modes: int, samples: int) -> dict[str, np.ndarray]:
+    """The fields that the kernels write, for blocks of so many samples."""
     z, n = np.zeros, RIGID_ROTOR + modes
     return {
         "axes": z((3, 3)), "reach": z((bearings, RIGID_ROTOR, n)),
         "apart": z((bearings, RIGID_ROTOR)), "borne": z((bearings, RIGID_ROTOR)),
         "given": z((bearings, RIGID_ROTOR)), "matrix": z((n, n)), "pivot": z(n, np.int64),
-        "x": z(n),
+        "x": z(n), "kept": z((samples, bearings, RIGID_ROTOR)),
     }  # fmt: skip

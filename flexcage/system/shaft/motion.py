@@ -26,7 +26,7 @@ from math import cos, sin
 from numba import literal_unroll
 
 from flexcage.contacts.state import Q_SKEW, Q_TILT, U_SKEW, U_TILT
-from flexcage.core.jit import fields, part
+from flexcage.core.jit import copy_into, fields, part
 from flexcage.core.vectors import put
 from flexcage.solve.bordered import lu_factor, lu_solve
 from flexcage.system.data import LOAD, POWERS
@@ -86,6 +86,7 @@ def sample(sample, t, y, yd, data):
         k += 1
     if whole:
         _accelerate(t, y, yd, s)
+        copy_into(s.kept[sample], s.given)
 
 
 def wanted(sample, data):
@@ -145,6 +146,7 @@ def _set_ring(b, y, s):
         for j in range(RIGID_ROTOR + n):
             speed += s.reach[b, c, j] * y[v + j]
         x *= s.sign[b, c]
+        x += s.offset[b] if c == 0 else 0.0
         if c < 3:
             y[q + c], y[u + c] = x, speed
         else:

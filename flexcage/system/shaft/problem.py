@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import fields
 from functools import cached_property
 from typing import Any
 
@@ -13,12 +14,14 @@ from numba import types
 from flexcage.core.jit import boxed
 from flexcage.core.kernel_values import KernelType
 from flexcage.solve.oscillators import Oscillators
-from flexcage.system.data import MASS, POWERS, TRANSVERSE
+from flexcage.system.begun import Start
+from flexcage.system.data import MASS, OF_AXIAL, OF_LOAD, OF_SPEED, POWERS, TRANSVERSE
 from flexcage.system.integrable import COUNT, REAL, VECTOR, Integrable
 from flexcage.system.problem import BearingSystem
 from flexcage.system.scales import ERROR_RATE, work_weights
 from flexcage.system.shaft import motion
-from flexcage.system.shaft.data import RIGID_ROTOR, SHAFT_POWERS, ShaftData, no_modes, workspace
+from flexcage.system.shaft.data import RIGID_ROTOR, SHAFT_POWERS, Rotor, ShaftData, workspace
+from flexcage.system.time_functions import AMPLITUDE
 
 _NONE, _FLAG = types.void, types.boolean
 OTHER_WAY = np.array([-1.0, 1.0, -1.0, 1.0, -1.0])  # of x, y, z, skew, tilt: half a turn about y
@@ -29,6 +32,7 @@ MACHINE: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
     "wanted": (motion.wanted, (_FLAG, COUNT, None)),
     "sample": (motion.sample, (_NONE, COUNT, REAL, VECTOR, VECTOR, None)),
 }
+_OF_ROTOR = [field.name for field in fields(Rotor) if field.name != "reversed"]
 _OF_BEARING = ("rates", "note", "sample", "wanted")  # in the order of ``motion``'s places
 
 
@@ -107,35 +111,39 @@ class MachineSystem(Integrable):
         return np.unique(np.concatenate([b.corners(begin, end) for b in self.bearings]))
 
 
-def shaft_data(
-    bearings: Sequence[BearingSystem], *, place: Sequence[float], reversed_: Sequence[bool],
-    inertia: Sequence[float], gravity: np.ndarray, load: np.ndarray,
-    unbalance: np.ndarray | None = None, phase: np.ndarray | None = None,
-    modes: dict[str, np.ndarray] | None = None,
-) -> ShaftData:  # fmt: skip
-    """The arrays of a rotor: ``place`` (b,) of its bearings from its centre of mass [m], which of
-    them face the other way (``ShaftData.sign``),
-    ``inertia`` mass, axial and transverse inertia without inner rings, ``load`` (5 + n) generalised
-    forces, ``unbalance`` and ``phase`` (2, 5 + n), ``modes`` by ``no_modes``'s names."""
-    count = len(bearings)
-    modes = modes or no_modes(count)
-    n = len(modes["stiffness"])
+def shaft_data(bearings: Sequence[BearingSystem], rotor: Rotor, *, samples: int = 0) -> ShaftData:
+    """The arrays of a rotor and of where its bearings are in y, for blocks of so many samples."""
+    count, n = len(bearings), len(rotor.stiffness)
     sizes = [b.layout.size for b in bearings]
     first = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
     at = [b.layout.places for b in bearings]
     rings = [b.data.model.inner_ring.inertia for b in bearings]
-    sign = np.where(np.array(reversed_)[:, None], OTHER_WAY, 1.0)
+    sign = np.where(rotor.reversed[:, None], OTHER_WAY, 1.0)
     drive, way = bearings[0].data.model.bodies, sign[0, 0]
-    z = np.zeros((2, RIGID_ROTOR + n))
+    own = {name: getattr(rotor, name) for name in _OF_ROTOR}
     return ShaftData(
         first=first,
         inner_q=first[:-1] + [a.inner_q for a in at],
         inner_u=first[:-1] + [a.inner_u for a in at],
         lam=first[:-1] + [a.lam for a in at],
         ring=np.array([[i[MASS], i[TRANSVERSE]] for i in rings]),
-        place=np.array(place, float), inertia=np.array(inertia, float), gravity=gravity,
-        load=np.array(load, float), unbalance=z if unbalance is None else unbalance,
-        phase=z if phase is None else phase, sign=sign, speed=drive.speed * [[1.0], [way]],
-        angle=way * drive.angle, wave=drive.waves[0] * [1.0, 1.0, way, 1.0],
-        **modes, **workspace(count, n),
+        sign=sign, speed=drive.speed * [[1.0], [way]], angle=way * drive.angle,
+        wave=drive.waves[OF_SPEED] * [1.0, 1.0, way, 1.0], **own,
+        **workspace(count, n, samples),
     )  # fmt: skip
+
+
+def release(bearing: BearingSystem) -> None:
+    """Take off the inner ring what loads it and holds it to the ground, which a rotor does from now
+    on; its speed stays prescribed. Written into the bearing's own arrays."""
+    ring, bodies = bearing.data.model.inner_ring, bearing.data.model.bodies
+    ring.free[:] = [1, 1, 1, 0, 1, 1]
+    ring.stiffness[:] = ring.damping[:] = 0.0
+    bodies.load[1], bodies.axial[1], bodies.moments[:] = 0.0, 0.0, 0.0
+    bodies.waves[OF_LOAD, AMPLITUDE] = bodies.waves[OF_AXIAL, AMPLITUDE] = 0.0
+
+
+def begun(machine: MachineSystem, starts: Sequence[Start], pose: np.ndarray) -> np.ndarray:
+    """y of a machine whose bearings begin as ``starts`` say, with the rotor at rest at ``pose``
+    (5 + n,)."""
+    return np.concatenate([*(start.y for start in starts), pose, np.zeros_like(pose)])
