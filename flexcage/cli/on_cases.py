@@ -40,7 +40,7 @@ def _add_run(commands: Any) -> None:
 def _add_static(commands: Any) -> None:
     text = "equilibrium under load: displacements, contact loads, stiffness, life"
     static = command(commands, "static", static_command, text)
-    static.add_argument("case", metavar="CASE", help="case file (.toml)")
+    static.add_argument("case", metavar="CASE", help="file of a case or a machine (.toml)")
     static.add_argument(
         "--set", action="append", metavar="PATH=VALUE", help="change a value of the case"
     )
@@ -108,10 +108,14 @@ def run_command(args: argparse.Namespace) -> int:
 
 
 def static_command(args: argparse.Namespace) -> int:
-    """flexcage static CASE: equilibrium of the inner ring, contact loads, stiffness, life."""
+    """flexcage static CASE: equilibrium of the inner ring, contact loads, stiffness, life; of a
+    machine, of its shaft and all bearings."""
     from flexcage.case import load_static
+    from flexcage.case.read import names_machine
     from flexcage.static import solve_static, write_static
 
+    if names_machine(Path(args.case)):
+        return _static_machine(args)
     case = load_static(Path(args.case), overrides=settings_of(args))
     if args.out:
         prepare_out(Path(args.out), resume=False, force=args.force, resumable=False)
@@ -120,6 +124,23 @@ def static_command(args: argparse.Namespace) -> int:
     if args.out:
         write_static(case, solution, Path(args.out))
         say(f"\nThe table, its numbers and a picture are in {args.out}")
+    return 0
+
+
+def _static_machine(args: argparse.Namespace) -> int:
+    from flexcage.machine import load_machine
+    from flexcage.machine.solve import solve_machine
+    from flexcage.machine.writing import OURS, write_machine
+
+    machine = load_machine(Path(args.case), overrides=settings_of(args))
+    if args.out:
+        ours = (*OURS, "case.toml")
+        prepare_out(Path(args.out), resume=False, force=args.force, resumable=False, ours=ours)
+    solution = solve_machine(machine)
+    say(solution.table())
+    if args.out:
+        write_machine(machine, solution, Path(args.out))
+        say(f"\nTable, numbers and pictures are in {args.out}, of each bearing in a folder there")
     return 0
 
 
