@@ -82,9 +82,13 @@ def _add_converge(commands: Any) -> None:
 
 
 def run_command(args: argparse.Namespace) -> int:
-    """flexcage run CASE: simulate, summarise, draw."""
+    """flexcage run CASE: simulate, summarise, draw; a machine with all of its bearings."""
+    from flexcage.case.read import names_machine
+
     if args.other_version and not args.resume:
         raise InputError("--other-version belongs to --resume.", where="other-version")
+    if names_machine(Path(args.case)):
+        return _run_machine(args)
     case, look = case_from(args), look_of(args)
     args.out = out = Path(args.out) if args.out else Path("runs") / case.name
     with run_folder(out, resume=args.resume, force=args.force):
@@ -104,6 +108,37 @@ def run_command(args: argparse.Namespace) -> int:
             draw(run, out / "images", animate=args.animate, **look)
             drawing = run.stages.get("pictures", 0.0)
             say(f"Pictures took {drawing:.1f} s, all of it {run.stages.total:.1f} s")
+    return 0
+
+
+def _run_machine(args: argparse.Namespace) -> int:
+    from flexcage.case.read import read_machine
+    from flexcage.machine import load_machine
+    from flexcage.machine.writing import OURS
+
+    if args.resume:
+        raise InputError(
+            "--resume: a machine's run is not gone on with; --force writes it anew.", where="resume"
+        )
+    look, overrides = look_of(args), settings_of(args)
+    if args.cage:
+        count = len(read_machine(Path(args.case))[0].get("bearings", []))
+        overrides |= {f"bearings.{k}.cage.model": args.cage for k in range(count)}
+    machine = load_machine(Path(args.case), overrides=overrides)
+    out = Path(args.out) if args.out else Path("runs") / machine.name
+    prepare_out(out, resume=False, force=args.force, resumable=False, ours=(*OURS, "case.toml"))
+    with while_loading():
+        from flexcage.core.progress import Progress
+        from flexcage.machine_run import simulate_machine
+
+    run = simulate_machine(machine, out=out, progress=Progress)
+    say(run.summary.text())
+    say(
+        f"\nThe run is in {out}: shaft.nc and machine_summary.txt, and a run of each bearing in a "
+        "folder there"
+    )
+    if not args.no_images:
+        draw(run, out / "images", animate=args.animate, **look)
     return 0
 
 
