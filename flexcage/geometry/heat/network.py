@@ -21,7 +21,7 @@ AMBIENT, INLET = "ambient", "inlet"
 #: What people call them.
 TITLES: Mapping[str, str] = {
     INNER: "inner ring", OUTER: "outer ring", ELEMENTS: "elements", CAGE: "cage", OIL: "oil",
-    SHAFT: "shaft", HOUSING: "housing", AMBIENT: "ambient", INLET: "oil inlet",
+    SHAFT: "shaft", HOUSING: "housing", AMBIENT: "ambient", INLET: "oil that flows",
 }  # fmt: skip
 _HALVES = {INNER: 0.5, ELEMENTS: 0.5}, {OUTER: 0.5, ELEMENTS: 0.5}
 #: Bodies that a loss at a place heats, and their shares: both surfaces alike (assumption).
@@ -82,15 +82,14 @@ class Network:
         found = np.linalg.solve(matrix, right)
         return {name: float(value) for name, value in zip(names, found)}
 
-    def out(self, temperatures: Mapping[str, float]) -> dict[str, float]:
-        """Heat [W] that flows to each of the surroundings at these temperatures of the bodies."""
-        all_of = {**self.given, **temperatures}
-        found = dict.fromkeys(self.given, 0.0)
-        for (a, b), conductance in self.conductances.items():
-            for one, other in ((a, b), (b, a)):
-                if one in found:
-                    found[one] += conductance * (all_of[other] - all_of[one])
-        return found
+    def out(self, temperatures: Mapping[str, float]) -> dict[tuple[str, str], float]:
+        """Heat [W] that flows from bodies to the surroundings at these temperatures, by pair."""
+        return {
+            (body, around): conductance * (temperatures[body] - self.given[around])
+            for pair, conductance in self.conductances.items()
+            for body, around in (pair, pair[::-1])
+            if around in self.given
+        }
 
     def _check_ways_out(self) -> None:
         reached, more = set(self.given), True
