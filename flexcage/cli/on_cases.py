@@ -1,4 +1,4 @@
-"""Commands that take a case: run, static, mesh, modes, converge."""
+"""Commands that take a case: run, static, warm, mesh, modes, converge."""
 
 from __future__ import annotations
 
@@ -9,15 +9,24 @@ from typing import Any
 
 from flexcage.cli.files import prepare_file, prepare_out, run_folder
 from flexcage.cli.parser import case_options, command, picture_options, say
-from flexcage.cli.settings import case_from, checked_case_from, look_of, settings_of
+from flexcage.cli.settings import (
+    case_from,
+    case_or_static,
+    checked_case_from,
+    look_of,
+    settings_of,
+)
 from flexcage.core.errors import InputError
 from flexcage.core.garbage import while_loading
+
+_WARM = ("warm.json",)
 
 
 def add_commands(commands: Any) -> None:
     """Add this module's commands to the parser."""
     _add_run(commands)
     _add_static(commands)
+    _add_warm(commands)
     _add_mesh_and_modes(commands)
     _add_converge(commands)
 
@@ -46,6 +55,19 @@ def _add_static(commands: Any) -> None:
     )
     static.add_argument("-o", "--out", metavar="DIR", help="folder for table, JSON and picture")
     static.add_argument("--force", action="store_true", help="write an existing folder anew")
+
+
+def _add_warm(commands: Any) -> None:
+    text = "temperatures at which losses and heat that leaves agree; viscosity, clearance"
+    warm = command(commands, "warm", warm_command, text)
+    warm.add_argument("case", metavar="CASE", help="case file (.toml)")
+    warm.add_argument(
+        "--set", action="append", metavar="PATH=VALUE", help="change a value of the case"
+    )
+    warm.add_argument(
+        "-o", "--out", metavar="DIR", help="folder for record, picture and settled case"
+    )
+    warm.add_argument("--force", action="store_true", help="write an existing folder anew")
 
 
 def _add_mesh_and_modes(commands: Any) -> None:
@@ -177,6 +199,23 @@ def _static_machine(args: argparse.Namespace) -> int:
         write_machine(machine, solution, Path(args.out))
         say(f"\nTable, numbers and pictures are in {args.out}, of each bearing in a folder there")
     return 0
+
+
+def warm_command(args: argparse.Namespace) -> int:
+    """flexcage warm CASE: temperatures that settle, or a runaway, which is a result (code 0)."""
+    from flexcage.core.progress import Progress
+    from flexcage.warming import warm, write_warmth
+
+    case = case_or_static(args)
+    if args.out:
+        prepare_out(Path(args.out), resume=False, force=args.force, resumable=False, ours=_WARM)
+    warmth = warm(case, progress=Progress)
+    say(warmth.table())
+    if args.out:
+        write_warmth(warmth, Path(args.out))
+        settled = ", and case.toml is the case at these temperatures" if warmth.settled else ""
+        say(f"\nThe table, its numbers and a picture are in {args.out}{settled}")
+    return 1 if warmth.verdict == "not settled" else 0
 
 
 def mesh_command(args: argparse.Namespace) -> int:
