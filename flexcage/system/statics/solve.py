@@ -13,6 +13,7 @@ from flexcage.core.units import describe
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.film import Film
 from flexcage.geometry.hertz import over_edge
+from flexcage.geometry.kinematics import epicyclic, passing_frequencies
 from flexcage.system.spec import Load
 from flexcage.system.statics.elements import ElementLoads, Elements, ElementsOf
 from flexcage.system.statics.equilibrium import Problem, balance, tangent
@@ -62,6 +63,7 @@ def solve_bearing(
     springs = problem.pull(ring) - problem.load
     reaction = np.where(problem.free, springs, posture.force - problem.load)
     borne = np.where(problem.spring > 0.0, posture.force, problem.load)  # by the elements
+    own, nominal = _frequencies(bearing, loads, speed)
     return StaticSolution(
         title=f"{bearing.designation or 'bearing'}, {bearing.kind} with {len(v)} rolling elements",
         speed=speed,
@@ -77,7 +79,26 @@ def solve_bearing(
         unbalanced=posture.unbalanced,
         held=load.held_in_words(axially=bool(problem.free[0]), tilt=_tilt(load, options)[0]),
         rings=bent,
+        frequencies=own,
+        nominal_frequencies=nominal,
     )
+
+
+def _frequencies(bearing: Bearing, loads: ElementLoads, speed: float) -> list[dict[str, float]]:
+    """Passing frequencies of pure rolling: at the mean contact angles of elements that bear load on
+    both races, and at the nominal one."""
+    nominal = bearing.nominal_contact_angle
+    both = (loads.force > 0.0).all(axis=1) & np.isfinite(loads.angle).all(axis=1)
+    mean = np.abs(loads.angle[both]).mean(axis=0) if both.any() else np.full(2, nominal)
+    found = []
+    for inner, outer in ((float(mean[0]), float(mean[1])), (nominal, nominal)):
+        rolling = epicyclic(
+            element_diameter=bearing.element_diameter, pitch_diameter=bearing.pitch_diameter,
+            element_count=bearing.element_count, inner_speed=speed,
+            contact_angle=(inner, outer),
+        )  # fmt: skip
+        found.append(passing_frequencies(rolling, speed))
+    return found
 
 
 def _film(bearing: Bearing, loads: ElementLoads, speed: float, lubricant: Lubricant) -> Film:
