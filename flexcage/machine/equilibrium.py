@@ -127,6 +127,8 @@ def tangent_of(m: Together, now: Standing, soft: bool = False) -> np.ndarray:
         whole += m.shares[k].T @ slope @ m.shares[k]
         own = slice(m.starts[k], m.starts[k + 1])
         whole[own, own] += b.outer.stiffness
+        if soft:
+            whole[own, own] += b.problem.soft * np.eye(own.stop - own.start)
     return whole
 
 

@@ -8,6 +8,7 @@ Damping is that of the bearings, where the machine gives it.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -15,6 +16,7 @@ import numpy as np
 import scipy.linalg as la
 
 from flexcage.core.threads import one_blas_thread
+from flexcage.machine.shaft import ShaftModel
 from flexcage.machine.solution import MachineSolution
 
 _MODES = 60  # of the shaft at rest, in which natural frequencies at speed are sought
@@ -71,9 +73,12 @@ class Linearised:
         order = np.argsort(values.imag)[:count]
         return values.imag[order], [self._way(V @ vectors[:, k]) for k in order]
 
-    @one_blas_thread
     def criticals(self) -> list[Critical]:
         """Critical speeds, rising: K q = w^2 (M - i G) q, undamped."""
+        return list(self._criticals)
+
+    @cached_property
+    def _criticals(self) -> list[Critical]:
         if not self.has_mass:
             return []
         values, vectors = la.eig(self.stiffness, self.mass - 1j * self.gyroscopic)
@@ -124,17 +129,35 @@ def amplitude(response: np.ndarray) -> np.ndarray:
 
 def linearised(s: MachineSolution) -> Linearised:
     """The linearised machine of a static solution."""
-    shaft, T = s.shaft, s.shaft.motions
+    damping = {b.position: b.damping for b in s.bearings}
+    return of_shaft(s.shaft, s.tangent, damping)
+
+
+def on_supports(shaft: ShaftModel, supports: Mapping[float, np.ndarray]) -> Linearised:
+    """A shaft on linear supports: the stiffness (5, 5) of each by its place [m]."""
+    whole = shaft.stiffness.copy()
+    for place, stiffness in supports.items():
+        rows = shaft.dofs(place)
+        whole[np.ix_(rows, rows)] += stiffness
+    return of_shaft(shaft, shaft.motions.T @ whole @ shaft.motions, {})
+
+
+def of_shaft(
+    shaft: ShaftModel, tangent: np.ndarray, dampers: Mapping[float, float]
+) -> Linearised:
+    """A shaft with slopes (m, m) of all forces over its own motions, and radial damping [N s/m] by
+    place [m]."""
+    T = shaft.motions
     damping = np.zeros_like(shaft.mass)
-    for b in s.bearings:
-        rows = shaft.dofs(b.position)[1:3]
-        damping[rows, rows] += b.damping
+    for place, value in dampers.items():
+        rows = shaft.dofs(place)[1:3]
+        damping[rows, rows] += value
     unbalance = np.zeros(len(shaft.mass), complex)
     for disc in shaft.spec.discs:
         rows = shaft.dofs(disc.position)[1:3]
         turned = disc.unbalance * np.exp(1j * disc.azimuth)
         unbalance[rows] += turned * np.array([1.0, -1.0j])  # y = cos, z = sin
     return Linearised(
-        motions=T, places=shaft.places, stiffness=s.tangent, mass=T.T @ shaft.mass @ T,
+        motions=T, places=shaft.places, stiffness=tangent, mass=T.T @ shaft.mass @ T,
         gyroscopic=T.T @ shaft.gyroscopic @ T, damping=T.T @ damping @ T, unbalance=unbalance,
     )  # fmt: skip

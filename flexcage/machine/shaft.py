@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import ceil
 
@@ -99,6 +99,17 @@ class ShaftModel:
             found[self.dofs(disc.position)[:3]] += disc.inertia[0] * gravity.vector
         for load in self.spec.loads:
             found[self.dofs(load.position)] += load.vector
+        return found
+
+    def own_compliance(self, position: float) -> np.ndarray:
+        """Compliance (5, 5) at a place [m] with all nodes held: of the beam there between its
+        ends; zero at nodes, and of a rigid shaft."""
+        k = int(np.clip(np.searchsorted(self.places, position) - 1, 0, len(self.places) - 2))
+        parts = position - self.places[k], self.places[k + 1] - position
+        if self.rigid or min(parts) < _SAME:
+            return np.zeros((DOFS, DOFS))
+        left, right = (replace(self.beams[k], length=L).matrices()[0] for L in parts)
+        found: np.ndarray = np.linalg.inv(left[DOFS:, DOFS:] + right[:DOFS, :DOFS])
         return found
 
     def at(self, position: float) -> np.ndarray:

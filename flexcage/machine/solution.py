@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from flexcage.machine.linear import Linearised
 
 FORMAT = 1
+_NOTHING = 1e-13  # of the largest stiffness: a spring that holds what else nothing does
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,8 +88,10 @@ class MachineSolution:
     @cached_property
     def compliance(self) -> np.ndarray:
         """(5 n, 5 n) displacements of all places under unit forces there."""
-        T = self.shaft.motions
-        found: np.ndarray = T @ np.linalg.pinv(self.tangent, rcond=1e-15, hermitian=False) @ T.T
+        T, size = self.shaft.motions, np.abs(np.diag(self.tangent)).reshape(-1, 5)
+        moves, turns = _NOTHING * size[:, :3].max(), _NOTHING * size[:, 3:].max()
+        held = np.tile([moves, moves, moves, turns, turns], len(size))  # what nothing holds
+        found: np.ndarray = T @ np.linalg.inv(self.tangent + np.diag(held)) @ T.T
         return found
 
     def deflection(self, position: float) -> np.ndarray:
@@ -104,7 +107,7 @@ class MachineSolution:
     def compliance_at(self, position: float) -> np.ndarray:
         """The inverse (5, 5) of that: displacements there under unit forces and moments there."""
         at = self._at(position)
-        found: np.ndarray = at @ self.compliance @ at.T
+        found: np.ndarray = at @ self.compliance @ at.T + self.shaft.own_compliance(position)
         return found
 
     def _at(self, position: float) -> np.ndarray:

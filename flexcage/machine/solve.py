@@ -87,7 +87,12 @@ def _result(
             reaction=np.zeros(5), stiffness=b.in_series(slopes), held="by the machine's shaft",
         )  # fmt: skip
     except InputError as exc:
-        raise InputError(f"Bearing {place.name}: {exc}", where="bearings") from exc
+        raise InputError(
+            f"Bearing {place.name} faces {place.facing}, where it bears the shaft's push, and cannot "
+            "bear what the shaft does to it: elements would press where its rings have no shoulder; "
+            "preload it more, turn it round (facing), or let another bearing face the load.",
+            where=f"bearings.{place.name}.facing",
+        ) from exc
     return BearingResult(
         name=place.name, position=place.position, facing=place.facing, offset=b.offset,
         force=-b.mirror * posture.force, displacement=q[b.at],
@@ -116,14 +121,13 @@ def _told(b: Seated, own: StaticSolution) -> StaticSolution:
 def _warnings(machine: Machine, s: MachineSolution) -> list[str]:
     found = [f"bearing {b.name}: {text}" for b in s.bearings for text in b.solution.warnings]
     found += _of_stress(machine, s.shaft, s)
-    lines = s.linearised
-    for critical in lines.criticals():
-        if machine.speed and abs(critical.speed / abs(machine.speed) - 1.0) < _NEAR:
-            if critical.way != "backward":
-                found.append(
-                    f"the speed, {describe(abs(machine.speed), 'rpm')}, is within "
-                    f"{_NEAR:.0%} of a critical speed, {describe(critical.speed, 'rpm')}."
-                )
+    speed = abs(machine.speed)
+    for critical in s.linearised.critical_speeds() if speed else ():
+        if abs(critical / speed - 1.0) < _NEAR:
+            found.append(
+                f"the speed, {describe(speed, 'rpm')}, is within {_NEAR:.0%} of a critical speed, "
+                f"{describe(critical, 'rpm')}."
+            )
     return found
 
 
