@@ -49,8 +49,9 @@ class ShaftRecord:
             "force": (("time", "bearing", "component"), force),
             "work": (("time", "channel"), kept["work"]),
             "energy": (("time",), energy),
-            "mode": (("time", "mode_number"), own),
         }
+        if own.shape[1]:  # an empty dimension cannot be read back
+            data["mode"] = (("time", "mode_number"), own)
         coords = {
             "time": np.arange(1, n + 1) / integration.output.rate,
             "place": list(places), "position": ("place", list(places.values())),

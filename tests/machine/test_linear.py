@@ -103,7 +103,9 @@ def test_a_clamped_beam_bends_as_euler_bernoulli_and_shear_say():
     assert z == pytest.approx(
         -200.0 * (L**3 / 3 / EI + L / GA) - 5.0 * L**2 / 2 / EI + sag, rel=1e-9
     )
-    assert ty == pytest.approx(200.0 * L**2 / 2 / EI + 5.0 * L / EI - down * L**3 / 6 / EI, rel=1e-9)
+    assert ty == pytest.approx(
+        200.0 * L**2 / 2 / EI + 5.0 * L / EI - down * L**3 / 6 / EI, rel=1e-9
+    )
     clamp = np.zeros_like(force)
     clamp[:5] = (shaft.stiffness @ q)[:5] - force[:5]
     borne = shaft.borne(clamp + 0.0, gravity)
