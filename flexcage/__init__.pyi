@@ -31,3 +31,5 @@ from flexcage.study.run import run_study as run_study
 from flexcage.study.spec import Study as Study
 from flexcage.study.spec import load_study as load_study
 from flexcage.system.statics.solution import StaticSolution as StaticSolution
+from flexcage.warming.loop import warm as warm
+from flexcage.warming.warmth import Warmth as Warmth

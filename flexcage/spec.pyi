@@ -14,6 +14,7 @@ from flexcage.geometry.bearing import RingLand as RingLand
 from flexcage.geometry.cage import Cage as Cage
 from flexcage.geometry.defect import CageDefect as CageDefect
 from flexcage.geometry.fits.spec import Fit as Fit
+from flexcage.geometry.heat.spec import Heat as Heat
 from flexcage.geometry.life.spec import Life as Life
 from flexcage.geometry.life.spec import LoadPoint as LoadPoint
 from flexcage.geometry.materials import MATERIALS as MATERIALS

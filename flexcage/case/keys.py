@@ -49,7 +49,7 @@ kind does as well. A preset gives values of its own, which count before these de
 """
 _KINDS = {float: "number", int: "whole number", bool: "true, false", str: "text", Path: "path"}
 _HIDDEN = ("given",)  # not for files
-_STATIC = ("static",)  # which no run reads
+_OF_COMMAND = {"static": "static", "heat": "warm"}  # sections of one command
 
 
 @dataclass(frozen=True)
@@ -131,7 +131,8 @@ def _section(field: dataclasses.Field) -> Iterator[Group]:
     elif _is_list(Case, field):
         yield from _listed(name, specs[0])
     else:
-        readers = ", read by `flexcage static` alone" if name in _STATIC else ""
+        command = _OF_COMMAND.get(name)
+        readers = f", read by `flexcage {command}` alone" if command else ""
         yield from of_spec(name, name, f"[{name}]{readers}", specs[0], default)
 
 

@@ -20,8 +20,9 @@ def read_case(source: str | Path | Mapping[str, Any]) -> tuple[dict[str, Any], P
         called = f"'{path}'" if path else "This"
         has = "[[bearings]]" if "bearings" in table else "[shaft]"
         raise InputError(
-            f"{called} is a machine, for it has {has}, and machines are solved statically so far: "
-            f"take 'flexcage static {path or 'MACHINE'}', or flexcage.load_machine in Python.",
+            f"{called} is a machine, for it has {has}, not the case of one bearing: 'flexcage run "
+            f"{path or 'MACHINE'}' and 'flexcage static' take machines, and flexcage.load_machine "
+            "in Python.",
             where="case",
             value=str(path or ""),
         )

@@ -137,10 +137,10 @@ class StaticCase(StaticSections):
         return values
 
     def to_table(self) -> dict[str, Any]:
-        """Nested tables of texts with units, complete but for rings, fits and lives as by
+        """Nested tables of texts with units, complete but for rings, fits, lives and heat as by
         default."""
         table = to_table(self, named=NAMED)
-        for name in ("inner_ring", "outer_ring", "fit", "life"):
+        for name in ("inner_ring", "outer_ring", "fit", "life", "heat"):
             if getattr(self, name) == default_of(StaticCase.__dataclass_fields__[name]):
                 del table[name]
         if not self._in_motion:
@@ -188,7 +188,7 @@ def _asked_nothing() -> dict[str, Any]:
     """Sections as by default."""
     names = (
         "contacts", "lubricant", "drive", "load", "inner_ring", "outer_ring", "mount", "static",
-        "fit", "life",
+        "fit", "life", "heat",
     )  # fmt: skip
     return {name: default_of(StaticCase.__dataclass_fields__[name]) for name in names}
 

@@ -26,13 +26,18 @@ from flexcage.core.spec import option
 from flexcage.core.toml import read_toml
 from flexcage.machine.checks import check_machine
 from flexcage.machine.spec import BearingPlace, Gravity, Shaft, Whirl
+from flexcage.results.options import OutputOptions
+from flexcage.solve.options import SolverOptions
 from flexcage.system.spec import Drive, Mount
 
 __all__ = ["Machine", "SeatedBearing", "is_machine", "load_machine"]
 
 _OWN_PLACE = {f.name for f in dataclasses.fields(BearingPlace)}
 _NOT_OF_A_BEARING = ("name", "description", "drive", "load")
+#: Sections of a bearing that its run alone reads.
+_OF_MOTION = ("cage", "mesh", "modes", "defects", "start", "limits", "seed")
 _SECTIONS = {f.name for f in dataclasses.fields(StaticCase)} - {*_NOT_OF_A_BEARING, "preset"}
+_SECTIONS |= {*_OF_MOTION}
 _ELSEWHERE = {
     r"loads?|forces?": "loads are [[shaft.loads]]",
     r"discs?|disks?|wheels?": "discs are [[shaft.discs]]",
@@ -51,6 +56,9 @@ class SeatedBearing:
 
     place: BearingPlace
     case: StaticCase
+    # tables of that case as they were read, cage and all, and the folder of their paths: for a run
+    table: Mapping[str, Any] = dataclasses.field(default_factory=dict, compare=False)
+    folder: Path | None = dataclasses.field(default=None, compare=False)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,9 +75,11 @@ class Machine:
     shaft: Shaft = option(doc="the shaft, what it carries, what loads it")
     bearings: tuple[SeatedBearing, ...] = option(doc="the bearings, one table each")
     whirl: Whirl = option(Whirl(), doc="speeds of the linearised machine")
+    solver: SolverOptions = option(SolverOptions(), doc="the integrator of a run")
+    output: OutputOptions = option(OutputOptions(), doc="what is kept of a run")
 
     def __post_init__(self) -> None:
-        for name in ("drive", "gravity", "shaft", "whirl"):
+        for name in ("drive", "gravity", "shaft", "whirl", "solver", "output"):
             check_spec(getattr(self, name), name)
         for bearing in self.bearings:
             check_spec(bearing.place, f"bearings.{bearing.place.name}")
@@ -104,6 +114,7 @@ class Machine:
             for name, kind, base in (
                 ("drive", Drive, Drive(speed=0.0)), ("gravity", Gravity, None),
                 ("shaft", Shaft, None), ("whirl", Whirl, None),
+                ("solver", SolverOptions, None), ("output", OutputOptions, None),
             )
             if name in table
         }  # fmt: skip
@@ -123,7 +134,7 @@ class Machine:
     def to_table(self) -> dict[str, Any]:
         """Nested tables of texts with units that read back to an equal machine."""
         table: dict[str, Any] = {"name": self.name, "description": self.description}
-        for name in ("drive", "gravity", "shaft", "whirl"):
+        for name in ("drive", "gravity", "shaft", "whirl", "solver", "output"):
             table[name] = to_table(getattr(self, name), named=NAMED)
         rows = []
         for seated in self.bearings:
@@ -131,7 +142,8 @@ class Machine:
             case = seated.case.to_table()
             case["mount"] = to_table(seated.case.mount)
             own = {k: v for k, v in own.items() if k not in ("case", "preset", "designation")}
-            rows.append(own | {k: v for k, v in case.items() if k not in _NOT_OF_A_BEARING})
+            own |= {k: v for k, v in case.items() if k not in _NOT_OF_A_BEARING}
+            rows.append(own | {k: v for k, v in seated.table.items() if k in _OF_MOTION})
         return {**table, "bearings": rows}
 
     def to_toml(self) -> str:
@@ -159,14 +171,18 @@ class _Reader:
                 own[key] = str(own[key])
         place: BearingPlace = self.binder.bind(BearingPlace, own, where)
         try:
-            case = self._case(place, {key: v for key, v in row.items() if key in _SECTIONS})
+            own_tables = {key: v for key, v in row.items() if key in _SECTIONS}
+            case, table, folder = self._case(place, own_tables)
         except InputError as exc:
             raise InputError(
                 f"In [[bearings]] '{place.name}': {exc}", where=where, value=exc.value
             ) from exc
-        return SeatedBearing(place=place, case=case)
+        return SeatedBearing(place=place, case=case, table=table, folder=folder)
 
-    def _case(self, place: BearingPlace, sections: dict[str, Any]) -> StaticCase:
+    def _case(
+        self, place: BearingPlace, sections: dict[str, Any]
+    ) -> tuple[StaticCase, dict[str, Any], Path]:
+        """The case, its tables, and where their relative paths start."""
         named = [key for key in ("case", "preset", "designation") if getattr(place, key)]
         if len(named) > 1:
             raise InputError(f"{' and '.join(named)} both name the bearing; keep one of them.")
@@ -186,10 +202,11 @@ class _Reader:
         case = StaticCase.from_table(table, folder=folder, si=self.binder.si)
         whole: Mount = self.binder.bind(Mount, mount, "mount") if mount else case.mount
         body = {f: getattr(case.mount, f) for f in ("body", "body_nodes")}
-        return dataclasses.replace(
+        case = dataclasses.replace(
             case, drive=self.drive, mount=dataclasses.replace(whole, **body),
             name=place.name, given=case.given,
         )  # fmt: skip
+        return case, table, folder
 
     def _named(self, place: BearingPlace) -> tuple[dict[str, Any], Path]:
         """Tables of the case that a place names, and where their relative paths start."""

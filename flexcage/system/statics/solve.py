@@ -14,6 +14,7 @@ from flexcage.core.units import describe
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.film import Film
 from flexcage.geometry.hertz import over_edge
+from flexcage.geometry.kinematics import epicyclic, passing_frequencies
 from flexcage.system.spec import Load
 from flexcage.system.statics.elements import ElementLoads, Elements, ElementsOf
 from flexcage.system.statics.equilibrium import Posture, Problem, balance, tangent
@@ -79,6 +80,7 @@ def solution_at(
     v = posture.v
     loads = elements.loads(v, posture.own)
     elements.check(loads)
+    own, nominal = _frequencies(bearing, loads, speed)
     return StaticSolution(
         title=f"{bearing.designation or 'bearing'}, {bearing.kind} with {len(v)} rolling elements",
         speed=speed,
@@ -90,8 +92,27 @@ def solution_at(
         ratings=_ratings(bearing, borne, options, elements.reference_life(v, posture.own)),
         warnings=tuple(_warnings(elements, loads)),
         unbalanced=posture.unbalanced,
+        frequencies=own,
+        nominal_frequencies=nominal,
         **known,
     )
+
+
+def _frequencies(bearing: Bearing, loads: ElementLoads, speed: float) -> list[dict[str, float]]:
+    """Passing frequencies of pure rolling: at the mean contact angles of elements that bear load on
+    both races, and at the nominal one."""
+    nominal = bearing.nominal_contact_angle
+    both = (loads.force > 0.0).all(axis=1) & np.isfinite(loads.angle).all(axis=1)
+    mean = np.abs(loads.angle[both]).mean(axis=0) if both.any() else np.full(2, nominal)
+    found = []
+    for inner, outer in ((float(mean[0]), float(mean[1])), (nominal, nominal)):
+        rolling = epicyclic(
+            element_diameter=bearing.element_diameter, pitch_diameter=bearing.pitch_diameter,
+            element_count=bearing.element_count, inner_speed=speed,
+            contact_angle=(inner, outer),
+        )  # fmt: skip
+        found.append(passing_frequencies(rolling, speed))
+    return found
 
 
 def _film(bearing: Bearing, loads: ElementLoads, speed: float, lubricant: Lubricant) -> Film:
