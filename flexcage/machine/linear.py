@@ -142,9 +142,7 @@ def on_supports(shaft: ShaftModel, supports: Mapping[float, np.ndarray]) -> Line
     return of_shaft(shaft, shaft.motions.T @ whole @ shaft.motions, {})
 
 
-def of_shaft(
-    shaft: ShaftModel, tangent: np.ndarray, dampers: Mapping[float, float]
-) -> Linearised:
+def of_shaft(shaft: ShaftModel, tangent: np.ndarray, dampers: Mapping[float, float]) -> Linearised:
     """A shaft with slopes (m, m) of all forces over its own motions, and radial damping [N s/m] by
     place [m]."""
     T = shaft.motions
