@@ -17,7 +17,6 @@ import numpy as np
 import scipy.linalg as la
 
 from flexcage.core.errors import FlexcageError, InputError, RunFailed
-from flexcage.core.units import mm
 from flexcage.machine.seating import Seated
 from flexcage.machine.shaft import ShaftModel
 from flexcage.system.statics.equilibrium import Posture
@@ -27,6 +26,7 @@ _ROUNDING = 1e-14  # of the stiff parts' forces: what is left of their differenc
 _ITERATIONS = 120
 _FEW, _ENOUGH = 16, 1e-4
 _FAR = 40.0  # of the elements' scale: a shaft so far away has fallen out of its bearings
+_AWAY = 0.05  # m: and so may one whose outer rings slide along with it
 _PARTS = (1, 3, 9)  # in which speed's effects come in
 
 
@@ -189,11 +189,14 @@ def _solved(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
 
 
 def _farthest(m: Together, now: Standing) -> tuple[float, Seated]:
-    """How far the ring that has moved most is from its bearing's elements, in their scale."""
-    far = [
-        (float(np.abs(p.ring * b.problem.lever).max()) / b.elements.scale, b)
-        for p, b in zip(now.postures, m.bearings)
-    ]
+    """How far the ring that has moved most is from its bearing's elements, in their scale, or from
+    where it was, by ``_AWAY``."""
+    q, _ = m.split(now.z)
+    far = []
+    for p, b in zip(now.postures, m.bearings):
+        pressed = float(np.abs(p.ring * b.problem.lever).max()) / b.elements.scale
+        away = _FAR * float(np.abs(q[b.at[:3]]).max()) / _AWAY
+        far.append((max(pressed, away), b))
     return max(far, key=lambda pair: pair[0])
 
 
@@ -205,9 +208,8 @@ def _no_equilibrium(m: Together, now: Standing) -> FlexcageError:
         way = "along x" if abs(x) > np.hypot(y, z) else "across x"
         return InputError(
             f"The bearings cannot hold the shaft: at bearing {bearing.spec.place.name} it moves "
-            f"off {way}, by {mm(max(abs(x), float(np.hypot(y, z))))} when the search was given up; "
-            "does a bearing face each axial push (facing), and is there preload, or a second "
-            "bearing against tilting?",
+            f"off {way}; does a bearing with a fixed seat face each axial push (facing), and is "
+            "there preload, or a second bearing against tilting?",
             where="bearings",
         )
     return RunFailed(

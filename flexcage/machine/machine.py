@@ -20,7 +20,7 @@ from flexcage.case.read import is_machine, read_machine
 from flexcage.case.static import StaticCase, put
 from flexcage.case.tables import merged
 from flexcage.case.toml import write_toml
-from flexcage.core.binding import Binder, check_spec, default_of, to_table, unknown_key
+from flexcage.core.binding import Binder, check_spec, default_of, flat, to_table, unknown_key
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option
 from flexcage.core.toml import read_toml
@@ -196,6 +196,8 @@ class _Reader:
             k: v for k, v in table.items() if k not in ("name", "description", "drive", "load")
         }
         table = merged(table, sections)
+        if place.designation and "given" not in sections:  # the rest is inferred, not given
+            table["given"] = [path for path, _ in flat(sections)]
         mount = table.get("mount", {})
         case = StaticCase.from_table(table, folder=folder, si=self.binder.si)
         whole: Mount = self.binder.bind(Mount, mount, "mount") if mount else case.mount

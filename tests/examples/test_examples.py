@@ -20,6 +20,7 @@ TESTED = {
     "ex06_ball_bearing",
     "ex07_own_body",
     "ex08_rotor_bearing",
+    "ex09_machine",
 }
 
 
@@ -54,6 +55,13 @@ def test_static(capsys):
     still, fast = example("ex05_static").main(0.0, 10000.0)
     assert abs(still) < 1e-9 and fast == pytest.approx(19.8114 - 10.6191, abs=1e-3)
     assert "N/um axially" in capsys.readouterr().out
+
+
+def test_machines():
+    module = example("ex09_machine")
+    assert module.spindle() == pytest.approx(80.7, abs=0.1)
+    borne, by_hand = module.motor()  # the roller bearing's own moment lifts it by 0.1 %
+    assert borne == pytest.approx(by_hand, rel=2e-3) and by_hand > 1200.0
 
 
 def test_nu210():
