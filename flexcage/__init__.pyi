@@ -15,6 +15,10 @@ from flexcage.core.errors import FlexcageError as FlexcageError
 from flexcage.core.errors import InputError as InputError
 from flexcage.core.errors import RunFailed as RunFailed
 from flexcage.geometry.kinematics import epicyclic as epicyclic
+from flexcage.machine.machine import Machine as Machine
+from flexcage.machine.machine import load_machine as load_machine
+from flexcage.machine.solution import MachineSolution as MachineSolution
+from flexcage.machine.solve import solve_machine as solve_machine
 from flexcage.results.rig_file import load_readings as load_readings
 from flexcage.simulate import Run as Run
 from flexcage.simulate import load_run as load_run

@@ -23,6 +23,14 @@ from flexcage.geometry.ring import InnerRing as InnerRing
 from flexcage.geometry.ring import OuterRing as OuterRing
 from flexcage.geometry.spall import Spall as Spall
 from flexcage.geometry.temperature import ModulusCurve as ModulusCurve
+from flexcage.machine.machine import SeatedBearing as SeatedBearing
+from flexcage.machine.spec import BearingPlace as BearingPlace
+from flexcage.machine.spec import Disc as Disc
+from flexcage.machine.spec import Gravity as Gravity
+from flexcage.machine.spec import Shaft as Shaft
+from flexcage.machine.spec import ShaftLoad as ShaftLoad
+from flexcage.machine.spec import ShaftSection as ShaftSection
+from flexcage.machine.spec import Whirl as Whirl
 from flexcage.mesh.options import MeshOptions as MeshOptions
 from flexcage.modes.spec import DampingBand as DampingBand
 from flexcage.modes.spec import ModesSpec as ModesSpec

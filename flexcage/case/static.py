@@ -244,11 +244,11 @@ def load_static(
             raise InputError(
                 f"'{path}' takes no part in a static solution; leave it out.", where=path
             )
-        table = _put(table, path.split("."), value, path)
+        table = put(table, path.split("."), value, path)
     return StaticCase.from_table(table, folder=folder)
 
 
-def _put(table: Mapping[str, Any], keys: list[str], value: Any, path: str) -> dict[str, Any]:
+def put(table: Mapping[str, Any], keys: list[str], value: Any, path: str) -> dict[str, Any]:
     """Copy of nested tables with one value replaced, also one of a table in a list."""
     head, *rest = keys
     if not rest:
@@ -256,9 +256,9 @@ def _put(table: Mapping[str, Any], keys: list[str], value: Any, path: str) -> di
     below = table.get(head, {})
     if isinstance(below, list) and rest[0].isdigit() and int(rest[0]) < len(below):
         places = {str(k): item for k, item in enumerate(below)}
-        return {**table, head: [*_put(places, rest, value, path).values()]}
+        return {**table, head: [*put(places, rest, value, path).values()]}
     if isinstance(below, str):
         below = {"name": below}  # a material by name, of which a value is overridden
     if not isinstance(below, Mapping):
         raise InputError(f"'{path}' leads nowhere in the case of a static solution.", where=path)
-    return {**table, head: _put(below, rest, value, path)}
+    return {**table, head: put(below, rest, value, path)}

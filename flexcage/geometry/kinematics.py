@@ -95,6 +95,21 @@ def epicyclic(
     )
 
 
+def passing_frequencies(speeds: Kinematics, inner_speed: float) -> dict[str, float]:
+    """Frequencies [Hz] by the names that diagnosticians use, of a bearing whose inner ring turns at
+    a speed [rad/s]. ``FTF``: the cage's turns; ``shaft``: the inner ring's; ``BSF``: those of an
+    element relative to the cage, and ``2 BSF``, at which a defect on it strikes the races; ``BPFO``
+    and ``BPFI``: the elements' passing of a place on the outer and the inner race."""
+    return {
+        "FTF": speeds.cage_frequency,
+        "shaft": abs(inner_speed) / (2.0 * pi),
+        "BSF": speeds.element_frequency,
+        "2 BSF": 2.0 * speeds.element_frequency,
+        "BPFO": speeds.outer_race_passing,
+        "BPFI": speeds.inner_race_passing,
+    }
+
+
 def _check_sizes(element: float, pitch: float, count: int, angles: tuple[float, float]) -> None:
     """InputError for elements that are larger than their circle, and for angles in degrees."""
     if not 0.0 < element < pitch or count < 1:

@@ -19,6 +19,7 @@ SHOWN: dict[str, tuple[str, float]] = {
     "um": ("m", 1e6),
     "mm": ("m", 1e3),
     "m/s": ("m/s", 1.0),
+    "m/s^2": ("m/s^2", 1.0),
     "mrad": ("rad", 1e3),
     "N": ("N", 1.0),
     "N mm": ("N m", 1e3),
@@ -45,8 +46,8 @@ SHOWN: dict[str, tuple[str, float]] = {
 #: Angles in degrees are of contacts: 1e-9 m across two grooves' centres, a few tenths of a
 #: millimetre apart. Rates by the hour have none: those of wear are small and real.
 RESOLUTION = {
-    "m": 1e-10, "rad": 1e-9, "rad/s": 1e-9, "m/s": 1e-9, "N": 1e-6, "N m": 1e-9, "Pa": 1.0,
-    "J": 1e-12, "W": 1e-9, "Hz": 1e-6, "1": 1e-12, "deg": 5e-6,
+    "m": 1e-10, "rad": 1e-9, "rad/s": 1e-9, "m/s": 1e-9, "m/s^2": 1e-9, "N": 1e-6, "N m": 1e-9,
+    "Pa": 1.0, "J": 1e-12, "W": 1e-9, "Hz": 1e-6, "1": 1e-12, "deg": 5e-6,
 }  # fmt: skip
 
 

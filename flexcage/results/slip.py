@@ -124,7 +124,7 @@ class ElementSpeed:
 
     ``title`` heads a picture of it, ``axis`` names it at an axis. ``spin`` takes it from a run,
     (time, element) [rad/s], positive as in rolling, ``rolling`` from kinematics, and ``slip_ratio``
-    is (n_th - n)/n_th, (time, element).
+    is (n_th - n)/n_th, (time, element). ``inertial``: in space, not relative to the cage.
     """
 
     title: str
@@ -132,6 +132,16 @@ class ElementSpeed:
     spin: Callable[[xarray.Dataset], xarray.DataArray]
     rolling: Callable[[Kinematics], float]
     slip_ratio: Callable[[xarray.Dataset, BearingNumbers], xarray.DataArray]
+    inertial: bool = False
+
+
+def spin_in_cage(ds: xarray.Dataset) -> xarray.DataArray:
+    """Speed of every element about its own axis relative to the cage, or without one to the mean
+    orbit, (time, element) [rad/s], positive as in rolling: so often a defect on it turns past a
+    race."""
+    own = speed_of(ds)
+    spin = own.spin(ds)
+    return spin - rolling_sense(ds) * metrics.carrier_speed(ds) if own.inertial else spin
 
 
 def element_spin(ds: xarray.Dataset) -> xarray.DataArray:

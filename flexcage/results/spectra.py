@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from math import ceil, pi
+from math import ceil
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -18,38 +18,21 @@ from flexcage.core.errors import InputError
 from flexcage.results import metrics
 from flexcage.results.evenly import FEWEST, grid_of, series
 from flexcage.results.figures.table import FIGURES
+from flexcage.results.frequencies import bearing_frequencies as bearing_frequencies
+from flexcage.results.frequencies import own_frequencies as own_frequencies
+from flexcage.results.frequencies import run_frequencies
 from flexcage.results.registry import NEIGHBOURS
-from flexcage.results.slip import BearingNumbers, at_own_angles, element_spin
 
 if TYPE_CHECKING:
     import xarray
 
-    from flexcage.geometry.bearing import Bearing
+    from flexcage.results.slip import BearingNumbers
 
 TURNS = 8  # of the cage in a segment of a run's spectra, if the run is that long
 BAND = (2e3, 20e3)  # Hz, of the vibration whose envelope is shown: what sensors and shocks share
+FLOOR_TO = 4.0  # times the highest line, up to which the floor of an envelope's spectrum is taken
+_PADDING = 27  # samples before the first and after the last, of a filter run both ways
 RESOLVED_BINS = 3  # of a Hann window, from which on a line is resolved from the mean and others
-
-
-def bearing_frequencies(
-    bearing: BearingNumbers | Bearing, inner_speed: float, outer_speed: float = 0.0
-) -> dict[str, float]:
-    """Frequencies [Hz] by name, without slip, of a bearing whose rings turn at speeds [rad/s].
-
-    ``FTF``: the cage's turns; ``shaft``: the inner ring's; ``BSF``: those of an element relative to
-    the cage, and ``2 BSF``, at which a defect on it strikes the races; ``BPFO`` and ``BPFI``: the
-    elements' passing of a place on the outer and the inner race. Source: ``geometry.kinematics``.
-    """
-    numbers = bearing if isinstance(bearing, BearingNumbers) else BearingNumbers.of(bearing)
-    speeds = numbers.kinematics(inner_speed, outer_speed)
-    return {
-        "FTF": speeds.cage_frequency,
-        "shaft": abs(inner_speed) / (2.0 * pi),
-        "BSF": speeds.element_frequency,
-        "2 BSF": 2.0 * speeds.element_frequency,
-        "BPFO": speeds.outer_race_passing,
-        "BPFI": speeds.inner_race_passing,
-    }
 
 
 @dataclass(frozen=True)
@@ -120,32 +103,6 @@ SIGNALS: Mapping[str, Signal] = MappingProxyType(
         ),
     }
 )
-
-
-def run_frequencies(
-    ds: xarray.Dataset, bearing: BearingNumbers, *, own: bool = True
-) -> dict[str, float]:
-    """The bearing's frequencies [Hz] by name at the run's mean inner speed: of a ball bearing, at
-    its ``own`` mean contact angles (``at_own_angles``), or at the nominal one."""
-    own_or_nominal = at_own_angles(ds, bearing) if own else bearing.nominal
-    return bearing_frequencies(own_or_nominal, float(ds["inner_speed"].mean()))
-
-
-def own_frequencies(ds: xarray.Dataset, bearing: BearingNumbers) -> dict[str, float]:
-    """The same frequencies [Hz] by name as the run's own mean speeds have them, slip included: of
-    the cage, the inner ring, and the elements about their own axes relative to the cage. The outer
-    ring stands."""
-    cage, inner = float(metrics.carrier_speed(ds).mean()), float(ds["inner_speed"].mean())
-    spin = abs(float(element_spin(ds).mean()))
-    speeds = {
-        "FTF": abs(cage),
-        "shaft": abs(inner),
-        "BSF": spin,
-        "2 BSF": 2.0 * spin,
-        "BPFO": bearing.element_count * abs(cage),
-        "BPFI": bearing.element_count * abs(inner - cage),
-    }
-    return {name: speed / (2.0 * pi) for name, speed in speeds.items()}
 
 
 def run_resolution(ds: xarray.Dataset, bearing: BearingNumbers) -> float:
@@ -227,7 +184,9 @@ def envelope(signal: xarray.DataArray, band: tuple[float, float] = BAND) -> xarr
             value=band,
         )
     sections = butter(4, (low, high), "bandpass", fs=rate, output="sos")
-    values = np.abs(hilbert(sosfiltfilt(sections, x, axis=-1), axis=-1))
+    padding = min(_PADDING, x.shape[-1] - 1)
+    passed = sosfiltfilt(sections, x, axis=-1, padlen=padding)
+    values = np.abs(hilbert(passed, axis=-1))
     out = signal.copy(data=np.moveaxis(values, -1, signal.dims.index(grid_of(signal))))
     return out.assign_attrs(long_name=f"envelope of {signal.attrs.get('long_name', '')}")
 
@@ -286,26 +245,44 @@ def vibration_figures(
     signal: xarray.DataArray, lines: Mapping[str, float], band: tuple[float, float] = BAND
 ) -> dict[str, float]:
     """Figures of one vibration signal (time,), by name: ``rms`` about its mean; ``kurtosis`` (3 of
-    Gaussian noise, 1.5 of a sine); ``crest``, its largest over ``rms``; and of each of ``lines``
-    [Hz], as ``envelope at BPFO``, the largest amplitude of its envelope's spectrum within two bins.
+    Gaussian noise, 1.5 of a sine); ``crest``, its largest over ``rms``; ``band rms``, that of what
+    it holds in the band [Hz]; of each of ``lines`` [Hz], as ``envelope at BPFO``, the largest
+    amplitude of its envelope's spectrum within two bins, and as ``envelope at 3 BPFO`` the root of
+    the sum of their squares at 1, 2 and 3 times the line; and as ``envelope floor`` the median of
+    that spectrum from its first resolved line up to ``FLOOR_TO`` times the highest of ``lines``.
 
-    A line that the record does not set apart from the mean is NaN.
+    A line that the record does not set apart from the mean is NaN; so are multiples beyond it.
     """
     x, _ = series(signal)
     x = x - x.mean()
     rms = float(np.sqrt(np.mean(x**2)))
+    own = envelope(signal, band)
     figures = {
         "rms": rms,
         "kurtosis": float(np.mean(x**4)) / rms**4 if rms else float("nan"),
         "crest": float(np.abs(x).max()) / rms if rms else float("nan"),
+        "band rms": float(np.sqrt(0.5 * np.mean(own.values**2))),
     }
-    spectrum = envelope_spectrum(signal, band)
-    frequency = spectrum["frequency"].values
+    spectrum = amplitude_spectrum(own)
     for name, line in lines.items():
-        near = np.abs(frequency - line) <= 2.0 * frequency[1]
-        resolved = RESOLVED_BINS * frequency[1] <= line <= frequency[-1]
-        figures[f"envelope at {name}"] = float(spectrum.values[near].max()) if resolved else np.nan
+        heights = [_height(spectrum, k * line) for k in (1, 2, 3)]
+        figures[f"envelope at {name}"] = heights[0]
+        figures[f"envelope at 3 {name}"] = float(np.sqrt(np.sum(np.square(heights))))
+    frequency = spectrum["frequency"].values
+    reach = FLOOR_TO * max(lines.values(), default=frequency[-1])
+    within = (frequency >= RESOLVED_BINS * frequency[1]) & (frequency <= reach)
+    figures["envelope floor"] = (
+        float(np.median(spectrum.values[within])) if within.any() else np.nan
+    )
     return figures
+
+
+def _height(spectrum: xarray.DataArray, line: float) -> float:
+    """Largest amplitude within two bins of a line [Hz]; NaN for one that is not resolved."""
+    frequency = spectrum["frequency"].values
+    if not RESOLVED_BINS * frequency[1] <= line <= frequency[-1]:
+        return float("nan")
+    return float(spectrum.values[np.abs(frequency - line) <= 2.0 * frequency[1]].max())
 
 
 def _over_frequency(

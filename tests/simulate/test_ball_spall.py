@@ -60,6 +60,18 @@ def test_balls_strike_a_spall_of_the_outer_race_at_its_frequency(spalled):
     assert second == pytest.approx(2.0 * own["BPFO"], abs=0.5 * resolution) and also > 0.3 * height
 
 
+def test_the_summary_says_which_line_stands_out(spalled):
+    """By its own speeds, a few percent below those without slip."""
+    found = spalled.summary
+    nominal = 0.5 * 9 * 100.0 * (1 - 7.938 / 38.5)
+    assert found["nominal_bpfo"] == pytest.approx(nominal, rel=1e-6)
+    assert found["frequency_bpfo"] == pytest.approx(nominal, rel=0.02)
+    assert found["envelope_bpfo"] > 3.0 * found["envelope_floor"]
+    assert found["envelope_bpfo_multiples"] > 1.3 * max(
+        found["envelope_bpfi_multiples"], found["envelope_bsf_twice_multiples"]
+    )
+
+
 def test_a_ball_over_the_spall_bears_little_and_energy_balances(spalled):
     """1 mm lets a ball of 7.938 mm down by 26 um, about as far as 1000 N press it in."""
     ds, race = spalled.dataset, 23.2e-3

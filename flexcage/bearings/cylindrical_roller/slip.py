@@ -48,4 +48,5 @@ SPEED = ElementSpeed(
     spin=spin,
     rolling=lambda kinematics: kinematics.element_spin,
     slip_ratio=slip_ratio,
+    inertial=True,
 )

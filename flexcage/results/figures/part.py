@@ -14,6 +14,7 @@ from flexcage.results import metrics
 from flexcage.results.audit import EnergyAudit, energy_audit
 from flexcage.results.contact_activity import ContactSeries, contact_series
 from flexcage.results.figures.figure import CAGED, FULL, Figure, FigureTable
+from flexcage.results.frequencies import SOUGHT, own_frequencies, run_frequencies
 from flexcage.results.registry import NEIGHBOURS
 from flexcage.results.slip import (
     BallRolling,
@@ -157,6 +158,29 @@ class SettledRun:
     def spin(self) -> float:
         """Mean speed of the elements about their own axes [rad/s]."""
         return float(element_spin(self.ds).mean())
+
+    @cached_property
+    def frequencies(self) -> dict[str, float]:
+        """Passing frequencies [Hz] by the mean speeds of whole turns, by name."""
+        return own_frequencies(self.whole, self.bearing)
+
+    @cached_property
+    def nominal_frequencies(self) -> dict[str, float]:
+        """Those of pure rolling at the nominal contact angle."""
+        return run_frequencies(self.whole, self.bearing, own=False)
+
+    @cached_property
+    def vibration(self) -> tuple[str, Mapping[str, float]] | None:
+        """The axis along which the outer ring's acceleration is larger, and its figures by name
+        (``spectra.vibration_figures``); None of a run with too few samples, or none of the band."""
+        from flexcage.results.spectra import SIGNALS, vibration_figures
+
+        if SIGNALS["outer_envelope"].of(self.ds) is None:
+            return None
+        signal = self.ds["outer_acceleration"]
+        axis = str(signal.std("time_hf").idxmax("axis2").values)
+        lines = {name: line for name, line in self.frequencies.items() if name in SOUGHT}
+        return axis, vibration_figures(signal.sel(axis2=axis), lines)
 
     # --- slip of elements, whole turns
 

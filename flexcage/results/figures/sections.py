@@ -14,6 +14,7 @@ from flexcage.results.figures.part import SettledRun
 from flexcage.results.figures.rings import INNER, OUTER, constraint_rows
 from flexcage.results.figures.speeds import SPEEDS, STATISTICS, Taken
 from flexcage.results.figures.table import FIGURES
+from flexcage.results.figures.vibration import FREQUENCIES, VIBRATION
 from flexcage.results.registry import NEIGHBOURS
 from flexcage.results.summary import Section, Summary
 
@@ -41,6 +42,7 @@ def _sections(part: SettledRun) -> Iterator[Section]:
         return Section(table.section, (*table.rows(*facts), *rows_of(added, *facts)))
 
     yield of(SPEEDS)
+    yield of(FREQUENCIES)
     yield Section(own.slip_title, rows_of([FIGURES[key] for key in own.slip], *facts))
     if part.caged:
         yield of(MOTION)
@@ -51,6 +53,8 @@ def _sections(part: SettledRun) -> Iterator[Section]:
     yield of(INNER)
     if "outer_force" in part.run:
         yield of(OUTER)
+    if "outer_acceleration" in part.run:
+        yield of(VIBRATION)
     yield Section("Constraints", tuple(constraint_rows(part)))
     if "energy" in part.run and "work" in part.run:
         yield of(ENERGY)

@@ -33,13 +33,14 @@ from flexcage.results.figures.stress import (
     STRESS_TIME,
     TRACKS,
 )
+from flexcage.results.figures.vibration import FREQUENCIES, VIBRATION
 from flexcage.results.registry import whose
 
 #: The sections of a summary, in order.
 _TABLES = (
-    STATISTICS, SPEEDS, SLIP, MOTION, FORCES, CONTACTS, NEXT, INNER, OUTER, ENERGY, FILM, FITS,
-    LIFE, SUPPORT, CAGE, PINCH, MODES, STRESS, STRESS_TIME, RIVETS, RIVETS_TIME, DAMAGE, TRACKS,
-    SOLVER, TIMES,
+    STATISTICS, SPEEDS, FREQUENCIES, SLIP, MOTION, FORCES, CONTACTS, NEXT, INNER, OUTER,
+    VIBRATION, ENERGY, FILM, FITS, LIFE, SUPPORT, CAGE, PINCH, MODES, STRESS, STRESS_TIME,
+    RIVETS, RIVETS_TIME, DAMAGE, TRACKS, SOLVER, TIMES,
 )  # fmt: skip
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -35,6 +36,8 @@ class StaticState:
     springs bear. ``elements`` lists every element, inner race before outer, and ``film`` (Z, 2) the
     lubricant's thickness there, of rolling without slip. ``stiffness`` (5, 5) is the exact tangent
     of what the elements bear over displacement, at constant speed, the elements following.
+    ``frequencies`` [Hz] by name are those of pure rolling at the mean contact angles of loaded
+    elements, ``nominal_frequencies`` at the nominal angle (``geometry.kinematics``).
     ``outer`` (5,) is the displacement of the outer ring, whose seat may yield: ``displacement`` and
     ``stiffness`` have the seat's share in them.
     """
@@ -55,6 +58,8 @@ class StaticState:
     outer: np.ndarray = field(default_factory=lambda: np.zeros(5))
     mounting: Mounting | None = None  # of the bearing that this is, if fits were given
     lives: Lives | None = None  # as they are quoted, if the case asks how
+    frequencies: Mapping[str, float] = field(default_factory=dict)
+    nominal_frequencies: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def largest_force(self) -> float:

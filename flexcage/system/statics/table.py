@@ -33,6 +33,8 @@ def table_of(s: StaticState, width: int = 0) -> str:
         note = wrapped(clearance_note(s.mounting), width=width)
         parts.insert(1, f"{note}\n{grid(clearance_lines(s.mounting))}")
     parts += [aligned(_life_lines(s), width=width)]
+    if s.speed != 0.0:
+        parts.append(grid(_frequency_lines(s)))
     if s.lives is not None and s.lives.points:
         parts.append(noted(_SPECTRUM, spectrum_lines(s.lives)))
     parts += [noted(_element_note(s), _element_lines(s))]
@@ -55,6 +57,7 @@ def html_of(s: StaticState) -> str:
         *_clearance_html(s),
         *_spectrum_html(s),
         html.folded("Stiffness", _html_grid(_stiffness_lines(s))),
+        *([html.folded("Frequencies", _html_grid(_frequency_lines(s)))] if s.speed else []),
         html.folded("Elements", elements),
         *(
             html.folded(_bent_note(ring), _html_grid(_bent_lines(ring), sides="r"))
@@ -123,6 +126,15 @@ def _stiffness_lines(s: StaticState) -> list[list[str]]:
         name = f"force {_AXES[k]}, N" if k < 3 else f"moment {_AXES[k][-1]}, N m"
         lines.append([name, *map(_short, row)])
     return lines
+
+
+def _frequency_lines(s: StaticState) -> list[list[str]]:
+    """Passing frequencies without slip; one line where the load leaves the contact angles."""
+    lines = [["frequency, Hz", *s.frequencies]]
+    rows = {"at these contact angles": s.frequencies, "at the nominal angle": s.nominal_frequencies}
+    if s.frequencies == s.nominal_frequencies:
+        rows = {"pure rolling": s.frequencies}
+    return [*lines, *([name, *map(_short, row.values())] for name, row in rows.items())]
 
 
 def _life_lines(s: StaticState) -> list[list[str]]:
