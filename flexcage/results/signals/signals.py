@@ -75,6 +75,7 @@ def _signal(
     else:
         values = measured(source, rate, sensor, crc32(sensor.name.encode()))
     begin = int(np.searchsorted(instants, t[0] + settle * (t[-1] - t[0]) - 1e-12))
+    begin = min(begin, count - 1)  # one sample at least
     return instants[begin:], own, values[begin:]
 
 
@@ -87,7 +88,7 @@ def _attrs(sensor: Sensor, rate: float, values: np.ndarray) -> dict[str, Any]:
         "long_name": f"{sensor.quantity}, {sensor.type} at {sensor.place.replace('_', ' ')}",
         "noise": sensor.noise, "range": sensor.range, "bits": sensor.bits, "seed": sensor.seed,
     }  # fmt: skip
-    if sensor.range and len(values):
+    if sensor.range:
         step = 2.0 * sensor.range / 2**sensor.bits if sensor.bits else 0.0
         attrs["clipped"] = float(np.mean((values >= sensor.range - 1.5 * step)
                                          | (values <= -sensor.range)))  # fmt: skip
