@@ -14,7 +14,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import scipy.linalg as la
 
 from flexcage.core.errors import FlexcageError, InputError, RunFailed
 from flexcage.machine.seating import Seated
@@ -184,8 +183,11 @@ def _march(m: Together, now: Standing, share: float) -> Standing:
 def _solved(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
     """Solution of a system whose rows are of many sizes."""
     scale = 1.0 / np.sqrt(np.maximum(np.abs(np.diag(matrix)), 1e-300))
-    found: np.ndarray = la.solve(scale[:, None] * matrix * scale, scale * right)
-    return scale * found
+    try:
+        found = np.linalg.solve(scale[:, None] * matrix * scale, scale * right)
+    except np.linalg.LinAlgError:  # where the search goes astray
+        found = np.linalg.lstsq(scale[:, None] * matrix * scale, scale * right)[0]
+    return np.asarray(scale * found)
 
 
 def _farthest(m: Together, now: Standing) -> tuple[float, Seated]:

@@ -77,11 +77,11 @@ def test_a_value_of_a_bearing_is_set_by_its_name(file, capsys):
     assert "names no bearing of the machine; they are A, B" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("command", ["run", "mesh", "modes", "converge"])
-def test_a_machine_is_solved_statically_so_far(file, capsys, command):
+@pytest.mark.parametrize("command", ["mesh", "modes", "converge"])
+def test_a_machine_is_no_case_of_one_bearing(file, capsys, command):
     assert cli.main([command, "pair.toml"]) == 2
     err = capsys.readouterr().err
-    assert "machines are solved statically so far: take 'flexcage static pair.toml'" in err
+    assert "'pair.toml' is a machine, for it has [[bearings]]" in err
     assert err.count("\n") == 1 and sorted(p.name for p in file.parent.iterdir()) == ["pair.toml"]
 
 
