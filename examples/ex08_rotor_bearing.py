@@ -6,7 +6,6 @@ bearing axis is x, and y, z are radial: y, z, x here are x, y, z there, a turn t
 
 from math import pi
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -15,11 +14,11 @@ import flexcage
 RPM = (2000.0, 6000.0, 10000.0)
 
 
-def table(axial: str = "400 N", radial: str = "300 N") -> Any:
+def table(axial: str = "400 N", radial: str = "300 N") -> flexcage.study.StiffnessTable:
     """Stiffness of a 7010C at ``RPM``; several loads of either kind make a grid."""
     case = flexcage.load_static(Path(__file__).with_name("c7010_static.toml"))
     speeds = [rpm * pi / 30.0 for rpm in RPM]
-    return flexcage.stiffness_table(case, speeds=speeds, radial=[radial], axial=[axial])
+    return flexcage.study.stiffness_table(case, speeds=speeds, radial=[radial], axial=[axial])
 
 
 def coefficients(**loads: str) -> dict[str, np.ndarray]:

@@ -25,6 +25,7 @@ from flexcage.core.errors import InputError
 from flexcage.core.spec import option
 from flexcage.core.toml import read_toml
 from flexcage.machine.checks import check_machine
+from flexcage.machine.seated import SeatedBearing
 from flexcage.machine.spec import BearingPlace, Gravity, Shaft, Whirl
 from flexcage.results.options import OutputOptions
 from flexcage.solve.options import SolverOptions
@@ -47,18 +48,6 @@ _ELSEWHERE = {
     r"housings?|mount": "a housing stands with its bearing, as [bearings.mount]",
     r"fits?|contacts|lubricant|static|life": "it stands with a bearing, as [bearings.NAME_OF_IT]",
 }
-
-
-@dataclass(frozen=True, kw_only=True)
-class SeatedBearing:
-    """A bearing in its place: ``case`` is what it is, with its fits, housing and lubricant; the
-    case's own load is not read."""
-
-    place: BearingPlace
-    case: StaticCase
-    # tables of that case as they were read, cage and all, and the folder of their paths: for a run
-    table: Mapping[str, Any] = dataclasses.field(default_factory=dict, compare=False)
-    folder: Path | None = dataclasses.field(default=None, compare=False)
 
 
 @dataclass(frozen=True, kw_only=True)

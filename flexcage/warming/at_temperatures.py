@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import pi
@@ -96,7 +97,7 @@ def evaluate(case: StaticCase, temperatures: Mapping[str, float]) -> Evaluated:
     Bodies without a temperature yet, as the cage, have that of the oil in contacts.
     """
     now, _ = warmed(case, temperatures)
-    plain = now.replace({"life": Life(), "heat": Heat()})  # no lives at every turn
+    plain = _without_lives(now)
     solution = solve_static(plain)
     bearing = plain.mounted.bearing
     losses = losses_of(bearing)(
@@ -117,6 +118,13 @@ def evaluate(case: StaticCase, temperatures: Mapping[str, float]) -> Evaluated:
         Iteration(at, towards, film, plain.lubricant.viscosity, clearance, places, flows, power),
         network,
     )
+
+
+def _without_lives(case: StaticCase) -> StaticCase:
+    """The case without what every turn would compute again and nothing here reads."""
+    bare = case.replace({"life": Life(), "heat": Heat()})
+    given = [p for p in bare.given or () if p.partition(".")[0] not in ("life", "heat")]
+    return dataclasses.replace(bare, given=tuple(given))
 
 
 def _places(heat: Heat, case: StaticCase, losses: Losses) -> tuple[dict[str, float], float]:

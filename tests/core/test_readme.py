@@ -28,6 +28,7 @@ CASES = {
     "README.md": ("",),
     "examples/cases.md": ("N1013", "", "", "15x37x10", "", "N1013", "N1013", "N1013", "7010C-PI"),
     "examples/fits.md": ("",),
+    "examples/signals.md": ("N1013",),
     "meshes/README.md": ("N1013",),
     "flexcage/cages/README.md": ("15x37x10",),
     "flexcage/modes/README.md": ("N1013",),
@@ -39,6 +40,7 @@ NOT_CASES = {
     "examples/unknowns.md": 1,
     "examples/fits.md": 1,
     "examples/machines.md": 1,
+    "examples/heat.md": 1,
 }
 
 

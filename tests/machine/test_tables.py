@@ -5,8 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from flexcage import load_static, solve_static, stiffness_table
+from flexcage import load_static, solve_static
 from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.study import stiffness_table
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
