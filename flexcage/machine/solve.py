@@ -14,7 +14,7 @@ from flexcage.core.threads import one_blas_thread
 from flexcage.core.units import describe, mm
 from flexcage.machine.equilibrium import Standing, Together, balance, tangent_of
 from flexcage.machine.machine import Machine
-from flexcage.machine.seating import Seated, seat
+from flexcage.machine.seating import Seated, in_housing, seat
 from flexcage.machine.shaft import ShaftModel, build_shaft
 from flexcage.machine.solution import BearingResult, MachineSolution
 from flexcage.static import lives_of
@@ -38,7 +38,8 @@ def solve_machine(machine: Machine) -> MachineSolution:
     load = shaft.load(machine.gravity)
     size = _size(machine, load)
     seats = [seat(b, shaft.dofs(b.place.position), size) for b in machine.bearings]
-    together = Together(shaft, load, seats)
+    seats, stiffness = in_housing(machine, seats)
+    together = Together(shaft, load, seats, stiffness)
     found = balance(together)
     q, rings = together.split(found.z)
     results, reactions = [], np.zeros_like(load)
@@ -66,14 +67,11 @@ def _size(machine: Machine, load: np.ndarray) -> float:
 def _condensed(m: Together, found: Standing) -> np.ndarray:
     """Slopes of the forces on the shaft over its own motions, the outer rings following."""
     whole, count = tangent_of(m, found), m.starts[0]
-    shaft = whole[:count, :count].copy()
-    for k in range(len(m.bearings)):  # ring by ring: one that nothing presses has a pivot of 0
-        own = slice(m.starts[k], m.starts[k + 1])
-        if own.start == own.stop:
-            continue
-        inner = np.linalg.pinv(whole[own, own], rcond=1e-14)
-        shaft -= whole[:count, own] @ inner @ whole[own, :count]
-    return shaft
+    rings = whole[count:, count:]
+    size = np.sqrt(np.maximum(np.abs(np.diag(rings)), 1e-300))  # of rings that nothing presses: 0
+    inner = np.linalg.pinv(rings / np.outer(size, size), rcond=1e-13) / np.outer(size, size)
+    following = whole[:count, count:] @ inner @ whole[count:, :count]
+    return np.asarray(whole[:count, :count] - following)
 
 
 def _result(
