@@ -166,6 +166,8 @@ class _Reader:
             own_tables = {key: v for key, v in row.items() if key in _SECTIONS}
             case, table, folder = self._case(place, own_tables)
         except InputError as exc:
+            if str(exc.where or "").startswith("drive."):  # the machine's
+                raise
             raise InputError(
                 f"In [[bearings]] '{place.name}': {exc}", where=where, value=exc.value
             ) from exc

@@ -16,7 +16,7 @@ from flexcage.core.errors import InputError
 from flexcage.core.units import mm
 from flexcage.core.writing import write_text
 from flexcage.machine.shaft import SectionForces, ShaftModel
-from flexcage.machine.spec import Whirl
+from flexcage.machine.spec import Gravity, Whirl
 from flexcage.system.statics.solution import StaticSolution
 
 if TYPE_CHECKING:
@@ -69,6 +69,7 @@ class MachineSolution:
     warnings: tuple[str, ...]
     unbalanced: float
     whirl: Whirl = Whirl()
+    gravity: Gravity = Gravity()
 
     @property
     def position(self) -> np.ndarray:
@@ -150,6 +151,12 @@ class MachineSolution:
     def __repr__(self) -> str:
         borne = ", ".join(f"{b.name} {b.radial:.4g} N" for b in self.bearings)
         return f"MachineSolution({self.name}: radially {borne})"
+
+    def _repr_html_(self) -> str:
+        """For notebooks."""
+        from flexcage.machine.table import html_of
+
+        return html_of(self)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values; what is not a number or infinite is None."""

@@ -24,6 +24,7 @@ from flexcage.system.statics.solution import StaticSolution
 from flexcage.system.statics.solve import solution_at
 from flexcage.system.statics.yielding import questioned
 
+_OTHER = 0.02  # of a bore, by which the shaft's diameter may differ
 _NEAR = 0.15  # of a critical speed: closer, a warning
 
 
@@ -51,7 +52,7 @@ def solve_machine(machine: Machine) -> MachineSolution:
         name=machine.name, speed=machine.speed, shaft=shaft, displacement=q.reshape(-1, 5),
         sections=shaft.borne(reactions, machine.gravity), bearings=tuple(results), load=load,
         tangent=_condensed(together, found), warnings=(), unbalanced=found.share_left,
-        whirl=machine.whirl,
+        whirl=machine.whirl, gravity=machine.gravity,
     )  # fmt: skip
     return replace(solution, warnings=tuple(_warnings(machine, solution)))
 
@@ -118,6 +119,7 @@ def _told(b: Seated, own: StaticSolution) -> StaticSolution:
 
 def _warnings(machine: Machine, s: MachineSolution) -> list[str]:
     found = [f"bearing {b.name}: {text}" for b in s.bearings for text in b.solution.warnings]
+    found += _of_bores(machine)
     found += _of_stress(machine, s.shaft, s)
     speed = abs(machine.speed)
     for critical in s.linearised.critical_speeds() if speed else ():
@@ -125,6 +127,23 @@ def _warnings(machine: Machine, s: MachineSolution) -> list[str]:
             found.append(
                 f"the speed, {describe(speed, 'rpm')}, is within {_NEAR:.0%} of a critical speed, "
                 f"{describe(critical, 'rpm')}."
+            )
+    return found
+
+
+def _of_bores(machine: Machine) -> list[str]:
+    """A sentence on each bearing whose bore is not the diameter of the shaft where it stands."""
+    found, ends = [], np.cumsum([0.0, *(s.length for s in machine.shaft.sections)])
+    for seated in machine.bearings if machine.shaft.sections else ():
+        bearing, x = seated.case.bearing, seated.place.position
+        half = 0.5 * bearing.width
+        under = [s.diameter for s, a, b in zip(machine.shaft.sections, ends, ends[1:])
+                 if a < x + half and b > x - half]  # fmt: skip
+        nearest = min(under, key=lambda d: abs(d - bearing.bore))
+        if abs(nearest - bearing.bore) > _OTHER * bearing.bore:
+            found.append(
+                f"bearing {seated.place.name} has a bore of {mm(bearing.bore)}, but at "
+                f"{mm(x)} the shaft's diameter is {mm(nearest)}: is there a sleeve?"
             )
     return found
 
