@@ -37,6 +37,12 @@ from flexcage.modes.spec import ModesSpec as ModesSpec
 from flexcage.results.instrument import LaserSetup as LaserSetup
 from flexcage.results.options import OutputOptions as OutputOptions
 from flexcage.results.rim import Rim as Rim
+from flexcage.results.signals.spec import Accelerometer as Accelerometer
+from flexcage.results.signals.spec import Laser as Laser
+from flexcage.results.signals.spec import Proximity as Proximity
+from flexcage.results.signals.spec import Sensor as Sensor
+from flexcage.results.signals.spec import Tacho as Tacho
+from flexcage.results.signals.spec import Torque as Torque
 from flexcage.solve.options import SolverOptions as SolverOptions
 from flexcage.stress.sn_curves import SNCurve as SNCurve
 from flexcage.stress.wear_laws import WearLaw as WearLaw

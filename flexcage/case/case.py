@@ -50,7 +50,7 @@ _MOUNTED = ("bearing", "load")  # which [fit] changes: what follows of it counts
 _ORDER = (
     "name", "description", "preset", "bearing", "fit", "cage", "cage_model", "defects", "mesh",
     "modes", "lubricant", "contacts", "drive", "load", "mount", "constraints", "start", "solver",
-    "output", "limits", "seed", "given", "inner_ring", "outer_ring", "life",
+    "output", "sensors", "limits", "seed", "given", "inner_ring", "outer_ring", "life",
     "heat", "static",
 )  # fmt: skip
 
@@ -131,6 +131,8 @@ class Case(CaseSections, StaticCase):
         physics |= {name: getattr(self.mounted, name) for name in _MOUNTED}
         if not self.life.given:
             del physics["life"]
+        if not self.sensors:
+            del physics["sensors"]
         physics["contacts"] = dataclasses.replace(self.contacts, land=self.land)
         if self.cage is not None:
             physics |= self._cage_physics(self.cage)

@@ -16,6 +16,7 @@ from flexcage.case.life_checks import find_in_life
 from flexcage.case.read_values import files_of
 from flexcage.case.ring_checks import find_bending_in_run, find_in_rings
 from flexcage.case.sections import NO_CAGE, CaseSections, StaticSections
+from flexcage.case.sensor_checks import find_in_sensors
 from flexcage.core.binding import chosen_spec, default_of, join
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
@@ -56,6 +57,7 @@ def check_case(case: CaseSections) -> None:
             _find_in_output,
             _find_in_laws,
             find_bending_in_run,
+            find_in_sensors,
         ),
     )
 

@@ -28,6 +28,7 @@ from flexcage.geometry.ring import InnerRing, OuterRing
 from flexcage.mesh.options import MeshOptions
 from flexcage.modes.spec import ModesSpec
 from flexcage.results.options import OutputOptions
+from flexcage.results.signals.spec import Sensor
 from flexcage.solve.options import SolverOptions
 from flexcage.system.spec import Constraint, Drive, Limits, Load, Mount, StartOptions
 from flexcage.system.statics.options import StaticOptions
@@ -215,10 +216,11 @@ class StartSections(LoadedSections):
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class CaseSections(MotionSections, StartSections, CageSections, StaticSections):
-    """All of them, and the integrator."""
+    """All of them, the integrator, and what sensors see."""
 
     drive: Drive = option(Drive(), doc="what turns the inner ring")
     solver: SolverOptions = option(SolverOptions(), doc="the integrator")
+    sensors: tuple[Sensor, ...] = option((), doc="sensors whose signals a run gives, any number")
 
     _in_motion = True
 

@@ -260,5 +260,7 @@ def put(table: Mapping[str, Any], keys: list[str], value: Any, path: str) -> dic
     if isinstance(below, str):
         below = {"name": below}  # a material by name, of which a value is overridden
     if not isinstance(below, Mapping):
-        raise InputError(f"'{path}' leads nowhere in the case of a static solution.", where=path)
+        raise InputError(
+            f"'{path}' leads nowhere here: a table or an entry on its way is not there.", where=path
+        )
     return {**table, head: put(below, rest, value, path)}

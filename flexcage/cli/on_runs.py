@@ -83,6 +83,13 @@ def _add_export(commands: Any) -> None:
         "steps) as .csv, .parquet or .mat",
     )  # fmt: skip
     export.add_argument(
+        "--signals", metavar="FILE", help="of a run: what its [[sensors]] show, as .csv, .parquet, "
+        ".mat, .wav or .uff",
+    )  # fmt: skip
+    export.add_argument(
+        "--sensors", metavar="CASE", help="with --signals: the [[sensors]] of this file instead"
+    )
+    export.add_argument(
         "--from", dest="begin", metavar="TIME", help="first instant, as '3 ms' (default without "
         "--to and --count: 0.4 ms about the largest stress)",
     )  # fmt: skip
@@ -130,6 +137,10 @@ def export_command(args: argparse.Namespace) -> int:
         return _export_body(args)
     if args.table:
         return _export_table(args)
+    if args.signals:
+        return _export_signals(args)
+    if args.sensors:
+        raise InputError("--sensors goes with --signals FILE.", where="sensors")
     for name in ("set", "full", "text"):
         if getattr(args, name):
             raise InputError(f"--{name} belongs to a case, and '{args.run}' is a run.", where=name)
@@ -145,14 +156,33 @@ def export_command(args: argparse.Namespace) -> int:
     return 0
 
 
-def _export_table(args: argparse.Namespace) -> int:
-    """Write variables of a run."""
+def _refuse_others(args: argparse.Namespace, wanted: str, others: tuple[str, ...] = ()) -> None:
+    """InputError for an option that does not go with the one that is wanted."""
     for name, option in (
         ("out", "-o"), ("begin", "--from"), ("end", "--to"), ("count", "--count"),
-        ("set", "--set"), ("full", "--full"), ("text", "--text"),
+        ("set", "--set"), ("full", "--full"), ("text", "--text"), *((o, f"--{o}") for o in others),
     ):  # fmt: skip
         if getattr(args, name):
-            raise InputError(f"{option} does not go with --table.", where=option)
+            raise InputError(f"{option} does not go with {wanted}.", where=option)
+
+
+def _export_signals(args: argparse.Namespace) -> int:
+    """Write signals of a run's sensors, or of those of another file."""
+    _refuse_others(args, "--signals")
+    from flexcage.case.sensor_checks import load_sensors
+    from flexcage.core.progress import Progress
+    from flexcage.simulate import load_run
+
+    sensors = load_sensors(args.sensors) if args.sensors else None
+    run = load_run(existing_run(args.run), progress=Progress)
+    for path in run.write_signals(args.signals, sensors, force=args.force):
+        say(f"written: {path}")
+    return 0
+
+
+def _export_table(args: argparse.Namespace) -> int:
+    """Write variables of a run."""
+    _refuse_others(args, "--table", ("signals", "sensors"))
     file, *variables = args.table
     from flexcage.core.progress import Progress
     from flexcage.simulate import load_run
@@ -165,8 +195,9 @@ def _export_table(args: argparse.Namespace) -> int:
 
 def _export_body(args: argparse.Namespace) -> int:
     """Write the reduced cage of a case, or its full matrices."""
-    if args.table:
-        raise InputError(f"--table belongs to a run, and '{args.run}' is a case.", where="table")
+    for name in ("table", "signals"):
+        if getattr(args, name):
+            raise InputError(f"--{name} belongs to a run, and '{args.run}' is a case.", where=name)
     args.case = args.run
     case = checked_case_from(args)
     for name, option in (("begin", "from"), ("end", "to"), ("count", "count")):

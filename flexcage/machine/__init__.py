@@ -1,4 +1,4 @@
-"""A machine: a shaft in its bearings, solved statically, and linearised about that."""
+"""A machine: a shaft in its bearings, solved statically, linearised, and set in motion."""
 
 from flexcage.machine.machine import Machine, SeatedBearing, is_machine, load_machine
 

@@ -5,16 +5,30 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 from math import sin
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe, mm
 from flexcage.core.writing import unusable
-
-if TYPE_CHECKING:
-    from flexcage.machine.machine import Machine, SeatedBearing
+from flexcage.machine.seated import SeatedBearing
+from flexcage.machine.spec import Gravity, Shaft
 
 Finding = tuple[str, str]  # where, sentence
+
+
+class Machine(Protocol):
+    """What is looked at of a machine (``machine.Machine``)."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def shaft(self) -> Shaft: ...
+    @property
+    def gravity(self) -> Gravity: ...
+    @property
+    def bearings(self) -> tuple[SeatedBearing, ...]: ...
+
+
 _SAME = 1e-6  # m, by which diameters may differ
 _BEYOND = 1e-9  # m, of rounding
 

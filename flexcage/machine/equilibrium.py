@@ -14,10 +14,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import scipy.linalg as la
 
 from flexcage.core.errors import FlexcageError, InputError, RunFailed
-from flexcage.core.units import mm
 from flexcage.machine.seating import Seated
 from flexcage.machine.shaft import ShaftModel
 from flexcage.system.statics.equilibrium import Posture
@@ -27,6 +25,7 @@ _ROUNDING = 1e-14  # of the stiff parts' forces: what is left of their differenc
 _ITERATIONS = 120
 _FEW, _ENOUGH = 16, 1e-4
 _FAR = 40.0  # of the elements' scale: a shaft so far away has fallen out of its bearings
+_AWAY = 0.05  # m: and so may one whose outer rings slide along with it
 _PARTS = (1, 3, 9)  # in which speed's effects come in
 
 
@@ -184,16 +183,22 @@ def _march(m: Together, now: Standing, share: float) -> Standing:
 def _solved(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
     """Solution of a system whose rows are of many sizes."""
     scale = 1.0 / np.sqrt(np.maximum(np.abs(np.diag(matrix)), 1e-300))
-    found: np.ndarray = la.solve(scale[:, None] * matrix * scale, scale * right)
-    return scale * found
+    try:
+        found = np.linalg.solve(scale[:, None] * matrix * scale, scale * right)
+    except np.linalg.LinAlgError:  # where the search goes astray
+        found = np.linalg.lstsq(scale[:, None] * matrix * scale, scale * right)[0]
+    return np.asarray(scale * found)
 
 
 def _farthest(m: Together, now: Standing) -> tuple[float, Seated]:
-    """How far the ring that has moved most is from its bearing's elements, in their scale."""
-    far = [
-        (float(np.abs(p.ring * b.problem.lever).max()) / b.elements.scale, b)
-        for p, b in zip(now.postures, m.bearings)
-    ]
+    """How far the ring that has moved most is from its bearing's elements, in their scale, or from
+    where it was, by ``_AWAY``."""
+    q, _ = m.split(now.z)
+    far = []
+    for p, b in zip(now.postures, m.bearings):
+        pressed = float(np.abs(p.ring * b.problem.lever).max()) / b.elements.scale
+        away = _FAR * float(np.abs(q[b.at[:3]]).max()) / _AWAY
+        far.append((max(pressed, away), b))
     return max(far, key=lambda pair: pair[0])
 
 
@@ -205,9 +210,8 @@ def _no_equilibrium(m: Together, now: Standing) -> FlexcageError:
         way = "along x" if abs(x) > np.hypot(y, z) else "across x"
         return InputError(
             f"The bearings cannot hold the shaft: at bearing {bearing.spec.place.name} it moves "
-            f"off {way}, by {mm(max(abs(x), float(np.hypot(y, z))))} when the search was given up; "
-            "does a bearing face each axial push (facing), and is there preload, or a second "
-            "bearing against tilting?",
+            f"off {way}; does a bearing with a fixed seat face each axial push (facing), and is "
+            "there preload, or a second bearing against tilting?",
             where="bearings",
         )
     return RunFailed(

@@ -17,7 +17,6 @@ import scipy.linalg as la
 
 from flexcage.core.threads import one_blas_thread
 from flexcage.machine.shaft import ShaftModel
-from flexcage.machine.solution import MachineSolution
 
 _MODES = 60  # of the shaft at rest, in which natural frequencies at speed are sought
 _STILL = 1e-6  # of the highest natural frequency of those modes: a motion that nothing holds
@@ -127,12 +126,6 @@ def amplitude(response: np.ndarray) -> np.ndarray:
     return np.asarray(forward + backward)
 
 
-def linearised(s: MachineSolution) -> Linearised:
-    """The linearised machine of a static solution."""
-    damping = {b.position: b.damping for b in s.bearings}
-    return of_shaft(s.shaft, s.tangent, damping)
-
-
 def on_supports(shaft: ShaftModel, supports: Mapping[float, np.ndarray]) -> Linearised:
     """A shaft on linear supports: the stiffness (5, 5) of each by its place [m]."""
     whole = shaft.stiffness.copy()
@@ -142,9 +135,7 @@ def on_supports(shaft: ShaftModel, supports: Mapping[float, np.ndarray]) -> Line
     return of_shaft(shaft, shaft.motions.T @ whole @ shaft.motions, {})
 
 
-def of_shaft(
-    shaft: ShaftModel, tangent: np.ndarray, dampers: Mapping[float, float]
-) -> Linearised:
+def of_shaft(shaft: ShaftModel, tangent: np.ndarray, dampers: Mapping[float, float]) -> Linearised:
     """A shaft with slopes (m, m) of all forces over its own motions, and radial damping [N s/m] by
     place [m]."""
     T = shaft.motions

@@ -18,13 +18,14 @@ from flexcage.case.new import new_case
 from flexcage.case.presets import NAMED
 from flexcage.case.read import is_machine, read_machine
 from flexcage.case.static import StaticCase, put
-from flexcage.case.tables import merged
+from flexcage.case.tables import merged, without_aliases
 from flexcage.case.toml import write_toml
-from flexcage.core.binding import Binder, check_spec, default_of, to_table, unknown_key
+from flexcage.core.binding import Binder, check_spec, default_of, flat, to_table, unknown_key
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option
 from flexcage.core.toml import read_toml
 from flexcage.machine.checks import check_machine
+from flexcage.machine.seated import SeatedBearing
 from flexcage.machine.spec import BearingPlace, Gravity, Shaft, Whirl
 from flexcage.results.options import OutputOptions
 from flexcage.solve.options import SolverOptions
@@ -47,18 +48,6 @@ _ELSEWHERE = {
     r"housings?|mount": "a housing stands with its bearing, as [bearings.mount]",
     r"fits?|contacts|lubricant|static|life": "it stands with a bearing, as [bearings.NAME_OF_IT]",
 }
-
-
-@dataclass(frozen=True, kw_only=True)
-class SeatedBearing:
-    """A bearing in its place: ``case`` is what it is, with its fits, housing and lubricant; the
-    case's own load is not read."""
-
-    place: BearingPlace
-    case: StaticCase
-    # tables of that case as they were read, cage and all, and the folder of their paths: for a run
-    table: Mapping[str, Any] = dataclasses.field(default_factory=dict, compare=False)
-    folder: Path | None = dataclasses.field(default=None, compare=False)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -197,7 +186,10 @@ class _Reader:
         }
         table = merged(table, sections)
         mount = table.get("mount", {})
-        case = StaticCase.from_table(table, folder=folder, si=self.binder.si)
+        own = sections if place.designation else table  # of which the rest is inferred
+        turning = {"given": [path for path, _ in flat(without_aliases(own))], **table}
+        turning["drive"] = to_table(self.drive, named=NAMED)
+        case = StaticCase.from_table(turning, folder=folder, si=self.binder.si)
         whole: Mount = self.binder.bind(Mount, mount, "mount") if mount else case.mount
         body = {f: getattr(case.mount, f) for f in ("body", "body_nodes")}
         case = dataclasses.replace(

@@ -92,14 +92,17 @@ def _drive(drive: Drive, way: float) -> Drive:
 def _load(machine: Machine, seated: SeatedBearing, result: BearingResult, way: float) -> Load:
     force = -result.force * (OTHER_WAY if way < 0.0 else 1.0)
     force = np.where(np.abs(force) > _NOTHING * np.abs(force).max(), force, 0.0)
+    tilt = "free" if seated.case.bearing.carries_axial_load else "held"
     if seated.case.bearing.axial_refusal(float(force[0])):
         force[0] = 0.0
+    if tilt == "held":  # as a run begins
+        force[3:] = 0.0
     gravity = machine.gravity
     pull = gravity.vector * [way, 1.0, way]
     across = float(np.hypot(pull[1], pull[2]))
     return Load(
         radial=float(np.hypot(force[1], force[2])), direction=atan2(force[2], force[1]),
-        axial=float(force[0]), moment_y=float(force[3]), moment_z=float(force[4]), tilt="free",
+        axial=float(force[0]), moment_y=float(force[3]), moment_z=float(force[4]), tilt=tilt,
         gravity=across, gravity_direction=atan2(pull[2], pull[1]) if across else 0.0,
     )  # fmt: skip
 

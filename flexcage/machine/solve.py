@@ -88,9 +88,9 @@ def _result(
         )  # fmt: skip
     except InputError as exc:
         raise InputError(
-            f"Bearing {place.name} faces {place.facing}, where it bears the shaft's push, and cannot "
-            "bear what the shaft does to it: elements would press where its rings have no shoulder; "
-            "preload it more, turn it round (facing), or let another bearing face the load.",
+            f"Bearing {place.name} faces {place.facing} and cannot bear what the shaft does to it: "
+            "elements would press where its rings have no shoulder; preload it more, turn it round "
+            "(facing), or let another bearing face the load.",
             where=f"bearings.{place.name}.facing",
         ) from exc
     return BearingResult(

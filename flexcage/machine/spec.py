@@ -214,7 +214,7 @@ class BearingPlace:
     case: str = _source("file of its case (.toml)", file=True)
     preset: str = _source("preset that it is, in place of a case")
     designation: str = _source(
-        "designation of the catalogue, in place of a case: as `flexcage new` infers it"
+        "designation of the catalogue, in place of a case, as `flexcage new` reads it"
     )
     position: float = quantity(
         "mm", doc="plane of its ball centres, or middle of its rollers, from the shaft's left end",

@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 from math import isfinite, pi
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from flexcage.core.listing import aligned, wrapped
 from flexcage.core.units import describe, mm
-
-if TYPE_CHECKING:
-    from flexcage.machine.solution import BearingResult, MachineSolution
+from flexcage.machine.state import BearingResult, MachineState
 
 _SMALL = 1e-9  # of the largest of its kind: shown as 0
 _UNITS = np.array([1e6, 1e6, 1e6, 1e3, 1e3])
 _CRITICALS = 6  # that are told
 
 
-def table_of(s: MachineSolution, width: int = 0) -> str:
+def table_of(s: MachineState, width: int = 0) -> str:
     """Bearings, shaft, critical speeds and warnings, in lines of at most ``width`` characters."""
 
     def grid(lines: list[list[str]], sides: str = "lr") -> str:
@@ -52,7 +49,7 @@ def _clean(values: np.ndarray, size: float) -> list[str]:
     return [_short(v if abs(v) > _SMALL * size else 0.0) for v in values]
 
 
-def _forces(s: MachineSolution) -> list[list[str]]:
+def _forces(s: MachineState) -> list[list[str]]:
     size = max(float(np.abs(b.force[:3]).max()) for b in s.bearings)
     lines = [["bearing", "at, mm", "faces", "Fx, N", "Fy, N", "Fz, N", "My, N m", "Mz, N m",
               "x, um", "y, um", "z, um", "tilt y, mrad", "tilt z, mrad"]]  # fmt: skip
@@ -65,7 +62,7 @@ def _forces(s: MachineSolution) -> list[list[str]]:
     return lines
 
 
-def _presses(s: MachineSolution) -> list[list[str]]:
+def _presses(s: MachineState) -> list[list[str]]:
     lines = [["bearing", "what it is", "offset, um", "loaded", "Q, N", "p, MPa", "L10, 1e6 rev",
               "L10r, 1e6 rev", "L10r, h"]]  # fmt: skip
     for b in s.bearings:
@@ -79,7 +76,7 @@ def _presses(s: MachineSolution) -> list[list[str]]:
     return lines
 
 
-def _stiffness(s: MachineSolution) -> list[list[str]]:
+def _stiffness(s: MachineState) -> list[list[str]]:
     lines = [["at", "kx, N/um", "ky, N/um", "kz, N/um", "about y, N m/mrad",
               "about z, N m/mrad"]]  # fmt: skip
     lines += [[b.name, *_diagonal(b.stiffness)] for b in s.bearings]
@@ -93,7 +90,7 @@ def _diagonal(stiffness: np.ndarray) -> list[str]:
     return [_short(v) for v in np.diag(stiffness) / _UNITS]
 
 
-def _shaft_lines(s: MachineSolution) -> list[list[str]]:
+def _shaft_lines(s: MachineState) -> list[list[str]]:
     most, where = s.largest_deflection
     bending = int(s.sections.bending.argmax())
     lines = [
@@ -110,7 +107,7 @@ def _shaft_lines(s: MachineSolution) -> list[list[str]]:
     return lines
 
 
-def _critical_lines(s: MachineSolution) -> list[list[str]]:
+def _critical_lines(s: MachineState) -> list[list[str]]:
     found = [c for c in s.linearised.criticals() if c.way != "axial"][:_CRITICALS]
     return [["rpm", "whirl"], *([f"{c.speed * 30.0 / pi:.6g}", c.way] for c in found)]
 

@@ -122,9 +122,11 @@ def draw_machine(machine: Machine, solution: MachineSolution, path: str | Path) 
         solution.position, solution.displacement[:, 1:3], sections.position,
         sections.force[:, 3:], sections.stress,
     )  # fmt: skip
+    small = 1e-6 * max(float(np.abs(b.force[:3]).max()) for b in solution.bearings)
     note = f"{solution.speed * 30.0 / pi:.5g} rpm   ·   " + "   ·   ".join(
-        f"{b.name}: {b.radial:.4g} N radially, {b.force[0] + 0.0:.4g} N along x"
+        f"{b.name}: {b.radial:.4g} N radially, {axial if abs(axial) > small else 0.0:.4g} N along x"
         for b in solution.bearings
+        for axial in (float(b.force[0]),)
     )
     return machine_picture(drawing, curves, path, title=machine.name, note=note)
 

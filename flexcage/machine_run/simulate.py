@@ -89,6 +89,7 @@ def _simulated(
         release(bearing)
     block = machine.output.block * machine.output.vibration_ratio
     system = MachineSystem(bearings, shaft_data(bearings, shaft.rotor(), samples=block))
+    stages.named("kernels of the machine", system.prepare)
     integration = MachineIntegration(
         system, [recording_of(each.case.bearing) for each in ready],
         [each.store for each in ready], begun(system, [e.start for e in ready], shaft.pose()),

@@ -111,7 +111,6 @@ def _curves(
 
 def _draw_shaft(ax: Any, d: ShaftDrawing, span: tuple[float, float], shape: float) -> None:
     from matplotlib.patches import Rectangle
-    from matplotlib.patheffects import Normal, Stroke
 
     def box(left: float, low: float, wide: float, high: float, **look: Any) -> None:
         ax.add_patch(Rectangle((1e3 * left, 1e3 * low), 1e3 * wide, 1e3 * high, **look))
@@ -139,9 +138,7 @@ def _draw_shaft(ax: Any, d: ShaftDrawing, span: tuple[float, float], shape: floa
                 along, out = 1e3 * (b.position + b.faces * ends), 1e3 * (middle + sign * ends)
                 ax.plot(along, out, color=colour, lw=1.2)
             ax.add_patch(_dot(b, middle, colour))
-        name = ax.text(1e3 * b.position, 300.0 * b.bore, b.name, ha="center", va="center",
-                       color=colour, weight="bold", zorder=5)  # fmt: skip
-        name.set_path_effects([Stroke(linewidth=3.0, foreground="white"), Normal()])
+    _names(ax, d.bearings, 0.07 * (span[1] - span[0]))
     half = 0.5 * max([float(d.sections[:, 2].max(initial=0.0)), *(b.outside for b in d.bearings),
                       *(float(x[1]) for x in d.discs)])  # fmt: skip
     tall = max(1.75 * half, 0.5 * (span[1] - span[0]) / shape)
@@ -151,6 +148,20 @@ def _draw_shaft(ax: Any, d: ShaftDrawing, span: tuple[float, float], shape: floa
     ax.grid(False)
     ax.tick_params(labelbottom=False)
     ax.yaxis.set_label_coords(-0.075, 0.5)
+
+
+def _names(ax: Any, bearings: Sequence[Drawn], close: float) -> None:
+    """Names beside the bearings, where their arrows are not; in two rows where they are close."""
+    last: dict[float, tuple[float, int]] = {}
+    for b in sorted(bearings, key=lambda b: b.position):
+        side = 1.0 if b.force[1] >= 0.0 else -1.0
+        place, row = last.get(side, (-np.inf, 0))
+        row = 1 - row if b.position - place < close else 0
+        last[side] = (b.position, row)
+        ax.annotate(b.name, (1e3 * b.position, side * 500.0 * b.outside),
+                    (0, side * (5 + 11 * row)), textcoords="offset points", ha="center",
+                    va="bottom" if side > 0.0 else "top", weight="bold",
+                    color=sheet.GREEN if b.floats else sheet.BLUE)  # fmt: skip
 
 
 def _dot(b: Drawn, middle: float, colour: str) -> Any:
@@ -217,7 +228,8 @@ def whirl_picture(
         if forced:
             ax.tick_params(labelbottom=False)
             axes.append(sheet.axes_at(figure, (_LEFT, _TOP + 600, _WIDTH, 290)))
-            axes[1].semilogy(speeds * _RPM, 1e6 * amplitudes, color=sheet.BLUE)
+            moves = amplitudes > 0.0
+            axes[1].semilogy(speeds[moves] * _RPM, 1e6 * amplitudes[moves], color=sheet.BLUE)
             axes[1].set_ylabel("largest orbit [µm]")
         for own in axes:
             own.set_xlim(0.0, float(speeds[-1]) * _RPM)

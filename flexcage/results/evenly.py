@@ -14,7 +14,7 @@ from flexcage.core.errors import InputError
 if TYPE_CHECKING:
     import xarray
 
-GRIDS = ("time", "time_hf")
+GRID = "time"  # or a name that begins with it, as "time_hf"
 FEWEST = 8  # samples of a spectrum
 _OFF = 0.25  # of the distance of samples, that one may lie off its even instant: clocks that jitter
 
@@ -29,7 +29,7 @@ def grid_of(signal: xarray.DataArray) -> str:
             f"values, dims='time', coords={{'time': t}}); this is of type {type(signal).__name__}.",
             where="signal",
         )
-    found = next((d for d in GRIDS if d in signal.dims), None)
+    found = next((str(d) for d in signal.dims if d == GRID or str(d).startswith(f"{GRID}_")), None)
     if found is None:
         raise InputError(f"A spectrum needs a time dimension; this array has {signal.dims}.")
     return found

@@ -46,7 +46,7 @@ def to_netcdf(ds: xarray.Dataset, path: str | Path) -> Path:
     plain = ds.copy()
     plain.attrs = {k: plain_attr(v) for k, v in ds.attrs.items()}
     encoding = {str(n): {"zlib": True, "complevel": 1} for n, v in ds.data_vars.items() if v.ndim}
-    path = _ready(path)
+    path = ready(path)
     _written(path, plain.to_netcdf, engine=engine.lower(), encoding=encoding)
     return path
 
@@ -100,10 +100,10 @@ def to_mat(ds: xarray.Dataset, path: str | Path, variables: Sequence[str] | None
             legend[name] = np.array(headings, dtype=object)
         if axis in ds.coords:
             legend[axis] = np.array([_instants(ds, axis)[0]], dtype=object)
-    names = dict(zip(given, _mat_names(given)))
+    names = dict(zip(given, mat_names(given)))
     stored: dict[str, Any] = {names[name]: values for name, values in given.items()}
     stored["columns"] = {names[name]: headings for name, headings in legend.items()}
-    path = _ready(path)
+    path = ready(path)
     _written(path, savemat, stored, long_field_names=True, do_compression=True, oned_as="column")
     return path
 
@@ -126,17 +126,18 @@ def write_table(
     path = path_of(path, "path")
     check_ending(path)
     if path.suffix == ".mat":
-        _check_new([path], force)
+        check_new([path], force)
         return [to_mat(ds, path, variables)]
     frames = _frames(ds, columns(ds, variables))
     one = len(frames) == 1
     paths = [path if one else path.with_name(f"{path.stem}_{a}{path.suffix}") for a in frames]
-    _check_new(paths, force)
+    check_new(paths, force)
     write: Callable[..., Path] = frame_to_csv if path.suffix == ".csv" else frame_to_parquet
     return [write(frame, file) for frame, file in zip(frames.values(), paths)]
 
 
-def _check_new(paths: Sequence[Path], force: bool) -> None:
+def check_new(paths: Sequence[Path], force: bool) -> None:
+    """InputError for a file that is there, unless ``force`` writes it anew."""
     there = [path for path in paths if path.exists()]
     if there and not force:
         raise InputError(
@@ -202,14 +203,14 @@ def frame_to_parquet(frame: pandas.DataFrame, path: str | Path) -> Path:
     """Write a table as Parquet."""
     if not any(importlib.util.find_spec(e) for e in ("pyarrow", "fastparquet")):
         raise _lacks("Parquet", "pyarrow")
-    path = _ready(path)
+    path = ready(path)
     _written(path, frame.to_parquet, index=False)
     return path
 
 
 def frame_to_csv(frame: pandas.DataFrame, path: str | Path) -> Path:
     """Write a table as CSV."""
-    path = _ready(path)
+    path = ready(path)
     _written(path, frame.to_csv, index=False)
     return path
 
@@ -284,7 +285,7 @@ def _for_mat(name: str, values: np.ndarray) -> np.ndarray:
     return values
 
 
-def _mat_names(names: Iterable[str]) -> list[str]:
+def mat_names(names: Iterable[str]) -> list[str]:
     """Names as MATLAB allows them: letters, digits and underscores, a letter first, 63 at most."""
     found: list[str] = []
     for name in names:
@@ -300,6 +301,11 @@ def _mat_names(names: Iterable[str]) -> list[str]:
     return found
 
 
+def put(path: Path, write: Callable[[Path], Any]) -> None:
+    """Let ``write`` make a file aside, which then takes its place."""
+    _written(path, write)
+
+
 def _written(path: Path, write: Callable[..., Any], *args: Any, **options: Any) -> None:
     try:
         with written(path) as temporary:
@@ -308,7 +314,8 @@ def _written(path: Path, write: Callable[..., Any], *args: Any, **options: Any) 
         raise unwritable(f"The file '{path}'", error, path=path) from error
 
 
-def _ready(path: str | Path) -> Path:
+def ready(path: str | Path) -> Path:
+    """A path whose folder is there, and which is no link."""
     path = path_of(path, "path")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -160,7 +160,7 @@ def readings(
         mark = np.broadcast_to(np.eye(3)[1], np.shape(centre))
     out = np.empty((len(centre), 5))
     for k, component in enumerate((1, 2)):
-        out[:, k] = _radial(component, centre, axis, mark, setup)
+        out[:, k] = radial_reading(component, centre, axis, mark, setup)
     normal = axis if face is None else face
     end = centre + setup.half_width * axis  # where the axis leaves the end face
     for k, (y, z) in enumerate(setup.spots):
@@ -173,7 +173,7 @@ def readings(
     return np.where(np.abs(out) <= setup.reach, out, np.nan)
 
 
-def _radial(
+def radial_reading(
     component: int, centre: np.ndarray, axis: np.ndarray, mark: np.ndarray, setup: LaserSetup
 ) -> np.ndarray:
     """Reading (n,) [m] of the sensor that looks along y (1) or z (2): mean over its spot, less that

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from flexcage._version import __version__
 from flexcage.cages import cage_type_of, riveted_cages
 from flexcage.case import Case
+from flexcage.case.sensor_checks import checked_sensors
 from flexcage.core.binding import check_spec, expect, path_of
 from flexcage.core.errors import InputError
 from flexcage.core.output_folders import check_no_file
@@ -24,7 +26,9 @@ from flexcage.modes.reduction import CageReduction
 from flexcage.modes.table import ModeTable
 from flexcage.results.edges import Edge, groove_edges
 from flexcage.results.film import film_thickness
+from flexcage.results.frequencies import own_frequencies
 from flexcage.results.metrics import settled
+from flexcage.results.signals.spec import Sensor
 from flexcage.results.slip import BearingNumbers
 from flexcage.results.statistics import element_passes
 from flexcage.results.store import MemoryRunStore
@@ -90,6 +94,29 @@ class RunRecord:
     def dataset(self) -> xarray.Dataset:
         """All recorded variables, labelled, with units (an xarray.Dataset)."""
         return self.store.dataset()
+
+    @cached_property
+    def signals(self) -> xarray.Dataset:
+        """Signals of the case's [[sensors]], by name, of the settled part (an xarray.Dataset).
+        Raises InputError for a case without sensors."""
+        return self.signals_of(self.case.sensors)
+
+    def signals_of(self, sensors: Sequence[Sensor]) -> xarray.Dataset:
+        """Signals of these sensors, whatever the case has (``results.signals``)."""
+        from flexcage.results.signals.signals import signals_of
+
+        case = self.case
+        sensors = checked_sensors(case, sensors)
+        rpm = float(self.dataset["inner_speed"].mean()) * 30.0 / np.pi
+        part = settled(self.dataset, case.output.settle)
+        lines = {f"{k} (Hz)": v for k, v in own_frequencies(part, self.numbers).items()}
+        attrs = {
+            "case": case.name, "hash": case.hash, "bearing": self.bearing.designation,
+            "flexcage": __version__, "speed (rpm)": rpm, **lines,
+        }  # fmt: skip
+        return signals_of(
+            self.dataset, sensors, cage=case.cage, settle=case.output.settle, attrs=attrs
+        )
 
     @cached_property
     def events(self) -> xarray.Dataset:

@@ -22,6 +22,7 @@ from flexcage.system.statics.rings import BentRing
 
 if TYPE_CHECKING:
     from flexcage.render.album import Scene
+    from flexcage.results.signals.spec import Sensor
 
 log = logging.getLogger(__name__)
 
@@ -53,6 +54,23 @@ class Run(SummarisedRun):
         from flexcage.run.tables import write_table
 
         return write_table(self, path_of(path, "path"), variables, force=force)
+
+    def write_signals(
+        self, path: str | Path, sensors: Sequence[Sensor] | None = None, *, force: bool = False
+    ) -> list[Path]:
+        """Write the signals of the case's [[sensors]], or of other ``sensors``, as .csv, .parquet,
+        .mat, .wav or .uff; paths of the files, in .csv, .parquet and .wav one for each rate.
+
+        Values are in SI; unit, place and rate stand beside them (``results.signals.files``).
+        Raises InputError for a case without sensors, another ending, or a file that is there,
+        unless ``force`` is given; EnvironmentLacks without pyuff.
+        """
+        from flexcage.results.signals.files import check_ending, write_signals
+
+        path = path_of(path, "path")
+        check_ending(path)
+        signals = self.signals if sensors is None else self.signals_of(sensors)
+        return write_signals(signals, path, force=force)
 
     def draw(
         self,

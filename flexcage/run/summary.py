@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from flexcage.core.warning import RunWarning
 from flexcage.mesh.quality import report_mesh
 from flexcage.results import mode_file
+from flexcage.results.evenly import FEWEST
 from flexcage.results.figures.cage import SUPPORT, CageFacts, cage_rows
 from flexcage.results.figures.effort import SOLVER, TIMES
 from flexcage.results.figures.figure import rows_of
@@ -18,6 +19,7 @@ from flexcage.results.figures.sections import summarise
 from flexcage.results.figures.stress import RIVETS, stress_rows
 from flexcage.results.figures.table import FIGURES
 from flexcage.results.row import SummaryRow
+from flexcage.results.signals.figures import SENSORS, clipped, sensor_rows
 from flexcage.results.slip import SlipRange
 from flexcage.results.summary import Summary
 from flexcage.results.warnings import from_attrs, warnings_of
@@ -48,6 +50,8 @@ def summary_of(run: RunRecord, *, stress: bool = True) -> Summary:
         proof = case.its_cage.material.proof_stress
         if stress or run.cage_stress.may_exceed(proof):
             summary = with_stress(summary, run)
+    if case.sensors and run.store.n_time >= FEWEST:
+        summary = summary.with_section(SENSORS, sensor_rows(run.signals, part.frequencies))
     if run.effort is not None:
         summary = summary.with_figures(SOLVER.rows(run.effort))
     return warned(timed(summary, run), run)
@@ -76,6 +80,8 @@ def warned(summary: Summary, run: RunRecord) -> Summary:
         rating = case.static.dynamic_rating or run.bearing.dynamic_rating
         rated = questioned_lives(run.lives, rating)
         known = (*known, *(RunWarning("life", f"{t[0].upper()}{t[1:]}") for t in rated))
+    if case.sensors and run.store.n_time >= FEWEST:
+        known = (*known, *clipped(run.signals))
     outcome = RunOutcome(
         summary=summary,
         dataset=run.dataset,

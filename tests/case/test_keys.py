@@ -14,7 +14,7 @@ from flexcage.core.binding import flat
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 LAWS = ("normal", "friction", "material")  # have sections of their own
-LISTS = {"defects", "constraints"}
+LISTS = {"defects", "constraints", "sensors"}
 IN_MOTION = [name for name in preset_names() if in_motion(type(load_preset(name).bearing))]
 
 
@@ -107,7 +107,14 @@ def test_the_keys_of_a_material_name_those_that_there_are(capsys):
 
 @pytest.mark.parametrize(
     "page",
-    ["keys_bearing.md", "keys_motion.md", "keys_fits.md", "variables.md", "figures.md"],
+    [
+        "keys_bearing.md",
+        "keys_motion.md",
+        "keys_fits.md",
+        "keys_sensors.md",
+        "variables.md",
+        "figures.md",
+    ],
 )
 def test_a_page_is_what_its_command_prints(page, tmp_path):
     text = (EXAMPLES / page).read_text("utf-8")
@@ -124,7 +131,8 @@ def test_a_page_lists_keys_alone():
 
 def test_the_pages_hold_every_section():
     text = "".join(
-        (EXAMPLES / f"keys_{part}.md").read_text("utf-8") for part in ("bearing", "motion", "fits")
+        (EXAMPLES / f"keys_{part}.md").read_text("utf-8")
+        for part in ("bearing", "motion", "fits", "sensors")
     )
     named = re.findall(r"^Printed by `flexcage keys (.*)`", text, re.MULTILINE)
     assert sorted(" ".join(named).split()) == sorted({g.section for g in keys.groups()})

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from math import pi
 
 import numpy as np
@@ -59,4 +60,4 @@ def by_ross() -> dict:
 
 
 if __name__ == "__main__":
-    print(json.dumps(by_ross(), indent=1))
+    sys.stdout.write(json.dumps(by_ross(), indent=1) + "\n")

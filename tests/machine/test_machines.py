@@ -195,6 +195,24 @@ def test_solution_as_json(solved, tmp_path):
         solved.stiffness_at(0.5)
 
 
+def test_a_life_is_quoted_at_the_speed_of_the_machine():
+    m = motor(bearings__other__life={"contamination": 0.5, "reliability": 95.0})
+    lives = solve_machine(m)["other"].solution.lives
+    assert lives.here.speed == m.speed and 0.0 < lives.here.modification < 50.0
+
+
+def test_a_designation_brings_no_values_that_were_given():
+    """So that no warning names what the catalogue's case says beside a fit."""
+    rows = [{"name": n, "designation": "6210", "position": x, "fit": {"clearance": "CN"}}
+            for n, x in (("A", "50 mm"), ("B", "300 mm"))]  # fmt: skip
+    rows[1]["axial_seat"] = "floating"
+    found = solve_machine(load_machine({**MOTOR, "bearings": rows}))
+    assert not [text for text in found.warnings if "not used" in text]
+    rows[0]["fit"]["shaft_roughness"] = "5 um"  # with smoothing = "roughness" alone
+    found = solve_machine(load_machine({**MOTOR, "bearings": rows}))
+    assert [text for text in found.warnings if "bearing A: Given, but not used: fit.shaft" in text]
+
+
 def test_unloaded_balls_at_speed_and_stress_are_told():
     soft = {"name": "steel", "proof_stress": "5 MPa"}
     m = motor(shaft__material=soft)

@@ -43,7 +43,7 @@ from flexcage.system.time_functions import (
 
 _POWERS = len(POWERS)
 _MASS, _AXIAL, _TRANSVERSE = range(3)  # of ``ShaftData.inertia``
-_SECOND, _THIRD = 3, 4  # of the rotor's velocities: about its second and third axis
+_SECOND, _THIRD = 3, 4  # of the rotor: skew and tilt, angular velocities about those axes
 RATES, NOTE, SAMPLE, WANTED, DATA = range(5)  # of a bearing in ``data[0]``
 
 
@@ -101,7 +101,7 @@ def wanted(sample, data):
 def _begin(y, s):
     """The rotor's axes, and how its velocities move the inner rings."""
     at, n = s.first[s.first.shape[0] - 1], s.stiffness.shape[0]
-    skew, tilt = y[at + 3], y[at + 4]
+    skew, tilt = y[at + _SECOND], y[at + _THIRD]
     cx, sx, ce, se = cos(skew), sin(skew), cos(tilt), sin(tilt)
     put(s.axes[0], (cx * ce, se, -sx * ce))
     put(s.axes[1], (-cx * se, ce, sx * se))
@@ -160,8 +160,8 @@ def _borne_by(b, y, yd, s):
     u = s.inner_u[b]
     for c in range(3):
         s.borne[b, c] = s.ring[b, 0] * yd[u + c]
-    s.borne[b, 3] = s.ring[b, 1] * yd[u + U_SKEW]
-    s.borne[b, 4] = s.ring[b, 1] * yd[u + U_TILT]
+    s.borne[b, _SECOND] = s.ring[b, 1] * yd[u + U_SKEW]
+    s.borne[b, _THIRD] = s.ring[b, 1] * yd[u + U_TILT]
 
 
 @part
@@ -188,10 +188,10 @@ def _accelerate(t, y, yd, s):
                         M[i, j] += B[c, i] * mass * B[c, j]
     lu_factor(M, s.pivot)
     lu_solve(M, s.pivot, x)
-    ce = cos(y[at + 4])
+    ce = cos(y[at + _THIRD])
     for c in range(3):
         yd[at + c] = y[v + c]
-    yd[at + 3], yd[at + 4] = y[v + _SECOND] / ce, y[v + _THIRD]
+    yd[at + _SECOND], yd[at + _THIRD] = y[v + _SECOND] / ce, y[v + _THIRD]
     for m in range(n):
         yd[at + RIGID_ROTOR + m] = y[v + RIGID_ROTOR + m]
     for i in range(N):
@@ -205,7 +205,7 @@ def _accelerate(t, y, yd, s):
             yd[u + (c if c < 3 else U_SKEW if c == 3 else U_TILT)] = a
             s.given[b, c] = (s.ring[b, 0] if c < 3 else s.ring[b, 1]) * a - s.borne[b, c]
         y[lam + AXIAL_FORCE] = s.given[b, 0]
-        y[lam + MOMENT_Y], y[lam + MOMENT_Z] = s.given[b, 3], s.given[b, 4]
+        y[lam + MOMENT_Y], y[lam + MOMENT_Z] = s.given[b, _SECOND], s.given[b, _THIRD]
 
 
 @part
@@ -218,7 +218,7 @@ def _own_forces(t, y, s):
     for c in range(3):
         x[c] += s.inertia[_MASS] * s.gravity[c]
     w2, w3 = y[v + _SECOND], y[v + _THIRD]
-    frame = w2 * sin(y[at + 4]) / cos(y[at + 4])
+    frame = w2 * sin(y[at + _THIRD]) / cos(y[at + _THIRD])
     Ia, It = s.inertia[_AXIAL], s.inertia[_TRANSVERSE]
     x[_SECOND] += It * frame * w3 - Ia * spin * w3
     x[_THIRD] += Ia * spin * w2 - It * frame * w2

@@ -13,6 +13,7 @@ from numba import types
 
 from flexcage.core.jit import boxed
 from flexcage.core.kernel_values import KernelType
+from flexcage.solve import runge_kutta
 from flexcage.solve.oscillators import Oscillators
 from flexcage.system.begun import Start
 from flexcage.system.data import MASS, OF_AXIAL, OF_LOAD, OF_SPEED, POWERS, TRANSVERSE
@@ -74,6 +75,16 @@ class MachineSystem(Integrable):
             np.concatenate([modes.decay for modes, _ in each]),
             np.concatenate([modes.frequency for modes, _ in each]),
         )
+
+    def prepare(self) -> None:
+        """Compile what a run needs, or read it from disk."""
+        method, y = runge_kutta.EXPLICIT_METHOD, np.zeros(self.size)
+        state = method.new_state(
+            0.0, y, y, weight=y, h0=1.0, quad_weight=np.zeros(self.quads), modes=self.modes
+        )
+        self.functions(method)
+        self.advance_of(method, state, runge_kutta.RungeKuttaOptions(1.0, 0.0, 1))
+        self.radius_of(state)
 
     def source(self, name: str) -> Callable[..., Any]:
         """The function that ``MACHINE`` names."""

@@ -1,0 +1,1 @@
+"""Sensors: what a measuring chain would show of a run, as signals and in files."""
