@@ -17,7 +17,6 @@ import scipy.linalg as la
 
 from flexcage.core.threads import one_blas_thread
 from flexcage.machine.shaft import ShaftModel
-from flexcage.machine.solution import MachineSolution
 
 _MODES = 60  # of the shaft at rest, in which natural frequencies at speed are sought
 _STILL = 1e-6  # of the highest natural frequency of those modes: a motion that nothing holds
@@ -125,12 +124,6 @@ def amplitude(response: np.ndarray) -> np.ndarray:
     y, z = response[..., 1], response[..., 2]
     forward, backward = 0.5 * np.abs(y + 1j * z), 0.5 * np.abs(y.conj() + 1j * z.conj())
     return np.asarray(forward + backward)
-
-
-def linearised(s: MachineSolution) -> Linearised:
-    """The linearised machine of a static solution."""
-    damping = {b.position: b.damping for b in s.bearings}
-    return of_shaft(s.shaft, s.tangent, damping)
 
 
 def on_supports(shaft: ShaftModel, supports: Mapping[float, np.ndarray]) -> Linearised:

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from math import isfinite, pi
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from flexcage.core import html
 from flexcage.core.listing import aligned, wrapped
 from flexcage.core.units import describe, mm
-
-if TYPE_CHECKING:
-    from flexcage.machine.solution import BearingResult, MachineSolution
+from flexcage.machine.state import BearingResult, MachineState
 
 _FRAME = (
     "x along the shaft from its left end, y and z across; forces and moments are those of the "
@@ -27,7 +24,7 @@ _UNITS = np.array([1e6, 1e6, 1e6, 1e3, 1e3])
 _CRITICALS = 6  # that are told
 
 
-def table_of(s: MachineSolution, width: int = 0) -> str:
+def table_of(s: MachineState, width: int = 0) -> str:
     """Bearings, shaft, critical speeds and warnings, in lines of at most ``width`` characters."""
 
     def grid(lines: list[list[str]], sides: str = "lr") -> str:
@@ -52,7 +49,7 @@ def table_of(s: MachineSolution, width: int = 0) -> str:
     return "\n\n".join(parts)
 
 
-def html_of(s: MachineSolution) -> str:
+def html_of(s: MachineState) -> str:
     """Warnings, forces, contacts; stiffness, shaft and critical speeds unfold."""
     forces, presses, stiffness, criticals = (
         html.table(lines[1:], heads=lines[0], sides="lr")
@@ -71,13 +68,13 @@ def html_of(s: MachineSolution) -> str:
     )
 
 
-def _head(s: MachineSolution) -> str:
+def _head(s: MachineState) -> str:
     kind = "rigid" if s.shaft.rigid else "elastic"
     count = f"{len(s.bearings)} bearing{'s' if len(s.bearings) > 1 else ''}"
     return f"{s.name}: {kind} shaft in {count} at {s.speed * 30.0 / pi:.6g} rpm"
 
 
-def _gravity(s: MachineSolution) -> str:
+def _gravity(s: MachineState) -> str:
     """Which way weight acts, in words."""
     g = s.gravity
     if not g.acceleration:
@@ -91,7 +88,7 @@ def _clean(values: np.ndarray, size: float) -> list[str]:
     return [_short(v if abs(v) > _SMALL * size else 0.0) for v in values]
 
 
-def _forces(s: MachineSolution) -> list[list[str]]:
+def _forces(s: MachineState) -> list[list[str]]:
     size = max(float(np.abs(b.force[:3]).max()) for b in s.bearings)
     lines = [["bearing", "at, mm", "faces", "Fx, N", "Fy, N", "Fz, N", "My, N m", "Mz, N m",
               "x, um", "y, um", "z, um", "tilt y, mrad", "tilt z, mrad"]]  # fmt: skip
@@ -104,7 +101,7 @@ def _forces(s: MachineSolution) -> list[list[str]]:
     return lines
 
 
-def _presses(s: MachineSolution) -> list[list[str]]:
+def _presses(s: MachineState) -> list[list[str]]:
     lines = [["bearing", "what it is", "offset, um", "loaded", "Q, N", "p, MPa", "L10, 1e6 rev",
               "L10r, 1e6 rev", "L10r, h"]]  # fmt: skip
     for b in s.bearings:
@@ -118,7 +115,7 @@ def _presses(s: MachineSolution) -> list[list[str]]:
     return lines
 
 
-def _stiffness(s: MachineSolution) -> list[list[str]]:
+def _stiffness(s: MachineState) -> list[list[str]]:
     lines = [["at", "kx, N/um", "ky, N/um", "kz, N/um", "about y, N m/mrad",
               "about z, N m/mrad"]]  # fmt: skip
     lines += [[b.name, *_diagonal(b.stiffness)] for b in s.bearings]
@@ -132,7 +129,7 @@ def _diagonal(stiffness: np.ndarray) -> list[str]:
     return [_short(v) for v in np.diag(stiffness) / _UNITS]
 
 
-def _shaft_lines(s: MachineSolution) -> list[list[str]]:
+def _shaft_lines(s: MachineState) -> list[list[str]]:
     most, where = s.largest_deflection
     bending = int(s.sections.bending.argmax())
     lines = [
@@ -149,7 +146,7 @@ def _shaft_lines(s: MachineSolution) -> list[list[str]]:
     return lines
 
 
-def _critical_lines(s: MachineSolution) -> list[list[str]]:
+def _critical_lines(s: MachineState) -> list[list[str]]:
     found = [c for c in s.linearised.criticals() if c.way != "axial"][:_CRITICALS]
     return [["rpm", "whirl"], *([f"{c.speed * 30.0 / pi:.6g}", c.way] for c in found)]
 
