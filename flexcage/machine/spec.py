@@ -282,5 +282,9 @@ class Whirl:
         "rpm", None, doc="highest speed of the Campbell diagram and of the unbalance response "
         "(default: one and a half times drive.speed)", above=0.0,
     )  # fmt: skip
+    stiffness: str = option(
+        "here", choices=("here", "each_speed"),
+        doc="the bearings' stiffness at the machine's speed, or solved anew at each",
+    )  # fmt: skip
     points: int = option(31, doc="speeds from rest to there", minimum=2, maximum=2000)
     modes: int = option(6, doc="natural frequencies that are told", minimum=1, maximum=40)

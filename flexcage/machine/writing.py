@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from math import atan2, hypot, pi
+from math import atan2, hypot, isfinite, pi
 from pathlib import Path
 
 import numpy as np
@@ -12,10 +12,10 @@ from flexcage.case import StaticCase
 from flexcage.core.errors import EnvironmentLacks
 from flexcage.core.listing import PAGE
 from flexcage.core.writing import write_text
-from flexcage.machine.linear import amplitude
 from flexcage.machine.machine import Machine
 from flexcage.machine.solution import MachineSolution
 from flexcage.machine.spec import Disc
+from flexcage.machine.whirl import Whirls, over_speeds
 from flexcage.static import write_static
 
 log = logging.getLogger(__name__)
@@ -39,7 +39,7 @@ def write_machine(machine: Machine, solution: MachineSolution, folder: Path) -> 
     for seated, own in zip(machine.bearings, solution.bearings):
         case = as_loaded(seated.case, own.solution.load)
         written += write_static(case, own.solution, folder / own.name)
-    whirls = _whirls(machine, solution)
+    whirls = over_speeds(machine, solution)
     if whirls is not None:
         write_text(folder / "whirl.csv", _as_csv(*whirls))
         written.append(folder / "whirl.csv")
@@ -61,20 +61,6 @@ def as_loaded(case: StaticCase, load: np.ndarray) -> StaticCase:
     })  # fmt: skip
 
 
-Whirls = tuple[np.ndarray, list[tuple[np.ndarray, list[str]]], np.ndarray]
-
-
-def _whirls(machine: Machine, solution: MachineSolution) -> Whirls | None:
-    """Speeds (s,), natural frequencies at each, and the largest amplitude (s,) under unbalance."""
-    lines, wanted = solution.linearised, machine.whirl
-    highest = wanted.highest or 1.5 * abs(machine.speed)
-    if not lines.has_mass or not highest:
-        return None
-    speeds = np.linspace(0.0, highest, wanted.points)
-    found = [lines.frequencies(float(w), wanted.modes) for w in speeds]
-    return speeds, found, amplitude(lines.response(speeds)).max(axis=1)
-
-
 def _as_csv(
     speeds: np.ndarray, found: list[tuple[np.ndarray, list[str]]], amplitudes: np.ndarray
 ) -> str:
@@ -86,7 +72,9 @@ def _as_csv(
         cells = [f"{w * 30.0 / pi:.6g}"]
         for f, way in zip(frequencies, ways):
             cells += [f"{f / (2.0 * pi):.8g}", way]
-        cells += [""] * (2 * count - 2 * len(ways)) + [f"{1e6 * orbit:.6g}"]
+        cells += [""] * (2 * count - 2 * len(ways)) + [
+            f"{1e6 * orbit:.6g}" if isfinite(orbit) else ""
+        ]
         lines.append(",".join(cells))
     return "\n".join(lines) + "\n"
 
@@ -99,7 +87,8 @@ def _pictures(
     speed = f"{solution.speed * 30.0 / pi:.5g} rpm"
     made = [draw_machine(machine, solution, folder / "machine.png")]
     if whirls is not None:
-        note = f"bearings' stiffness at the machine's load and {speed}"
+        anew = machine.whirl.stiffness == "each_speed"
+        note = f"bearings' stiffness at the machine's load and {'each speed' if anew else speed}"
         made.append(whirl_picture(*whirls, folder / "whirl.png", title=f"{machine.name}: whirl",
                                   note=note, speed=solution.speed))  # fmt: skip
     return made
