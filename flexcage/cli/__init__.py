@@ -125,11 +125,11 @@ def _fail(sentence: str, code: int) -> int:
 
 def build_parser() -> argparse.ArgumentParser:
     """All commands and their options."""
-    from flexcage.cli import lists, new, on_cases, on_runs, on_studies, small
+    from flexcage.cli import lists, new, on_cases, on_datasets, on_runs, on_studies, small
     from flexcage.cli.parser import new_parser
 
     parser = new_parser()
     commands = parser.add_subparsers(title="commands", metavar="COMMAND")
-    for group in (new, on_cases, on_runs, on_studies, lists, small):
+    for group in (new, on_cases, on_runs, on_studies, on_datasets, lists, small):
         group.add_commands(commands)
     return parser

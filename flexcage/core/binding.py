@@ -624,3 +624,12 @@ def near_names(text: str, known: Iterable[str], most: int = 3, *, cutoff: float 
         if close := difflib.get_close_matches(plain(text), meant, n=most, cutoff=cutoff):
             return [name for key in close for name in meant[key]][:most]
     return []
+
+
+def parts_of_length(spec: Any) -> list[float]:
+    """Values [m] of a spec's fields whose unit is a length, as it is given or by default."""
+    lengths = ("m", "mm", "um", "nm")
+    values = [
+        getattr(spec, f.name) for f in dataclasses.fields(spec) if f.metadata.get("unit") in lengths
+    ]
+    return [value for value in values if isinstance(value, float)]

@@ -1,0 +1,83 @@
+"""The command that makes data sets of signals, and checks them."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from flexcage.cli.parser import command, say, whole_number
+from flexcage.cli.settings import settings_of
+from flexcage.core.errors import InputError
+
+CHECK = "check"
+
+
+def add_commands(commands: Any) -> None:
+    """Add this module's command to the parser."""
+    text = "make a data set of signals with known truth of a study's or a map's runs, or check one"
+    dataset = command(commands, "dataset", dataset_command, text)
+    dataset.add_argument(
+        "what",
+        nargs="+",
+        metavar="STUDY|check",
+        help="file of a study or a map (.toml), or: check DIR",
+    )
+    dataset.add_argument(
+        "-o", "--out", metavar="DIR", help="its folder (default: runs/NAME-dataset)"
+    )
+    dataset.add_argument("--workers", type=whole_number, metavar="N", help="processes")
+    dataset.add_argument("--set", action="append", metavar="PATH=VALUE", help="of the base case")
+    dataset.add_argument(
+        "--severity",
+        metavar="SIZES",
+        help="edges of severities by the fault's size, as '0.6 mm, 1.2 mm'",
+    )
+    dataset.add_argument("--title", default="", metavar="TEXT", help="of its cards")
+    dataset.add_argument("--license", metavar="NAME", help="of its cards (default: CC-BY-4.0)")
+
+
+def dataset_command(args: argparse.Namespace) -> int:
+    """flexcage dataset STUDY: make a data set, or go on with it; flexcage dataset check DIR."""
+    if args.what[0] == CHECK:
+        return _check(args)
+    if len(args.what) > 1:
+        raise InputError(
+            f"dataset takes one study, and was given {' '.join(args.what)}; 'flexcage dataset "
+            "check DIR' checks a data set.",
+            where="dataset",
+        )
+    from flexcage.core.progress import Progress
+    from flexcage.study.dataset.build import build_dataset
+    from flexcage.study.dataset.check import check_dataset
+    from flexcage.study.dataset.folder import Settings
+
+    source = Path(args.what[0])
+    out = Path(args.out) if args.out else Path("runs") / f"{source.stem}-dataset"
+    given: dict[str, Any] = {"license": args.license} if args.license else {}
+    settings = Settings(edges=_edges(args.severity), title=args.title, **given)
+    folder = build_dataset(
+        source, out, settings=settings, overrides=settings_of(args), workers=args.workers,
+        progress=Progress,
+    )  # fmt: skip
+    say(check_dataset(folder.path).text())
+    say(f"The data set is in {out}; its README.md says what is in it")
+    return 0
+
+
+def _check(args: argparse.Namespace) -> int:
+    if len(args.what) != 2:
+        raise InputError("check takes the folder of one data set, as: check DIR.", where="dataset")
+    from flexcage.study.dataset.check import check_dataset
+
+    verdict = check_dataset(args.what[1])
+    say(verdict.text())
+    return 1 if verdict.faults else 0
+
+
+def _edges(text: str | None) -> tuple[float, ...]:
+    """Sizes [m] of "0.6 mm, 1.2 mm"."""
+    from flexcage.core.units import parse
+
+    parts = [part.strip() for part in (text or "").split(",") if part.strip()]
+    return tuple(parse(part, "mm", where="--severity") for part in parts)

@@ -1,0 +1,1 @@
+"""Data sets of signals with known truth, made of a study's runs."""
