@@ -15,6 +15,11 @@ from flexcage.core.errors import FlexcageError as FlexcageError
 from flexcage.core.errors import InputError as InputError
 from flexcage.core.errors import RunFailed as RunFailed
 from flexcage.geometry.kinematics import epicyclic as epicyclic
+from flexcage.machine.machine import Machine as Machine
+from flexcage.machine.machine import load_machine as load_machine
+from flexcage.machine.solve import solve_machine as solve_machine
+from flexcage.machine_run import load_machine_run as load_machine_run
+from flexcage.machine_run import simulate_machine as simulate_machine
 from flexcage.results.rig_file import load_readings as load_readings
 from flexcage.simulate import Run as Run
 from flexcage.simulate import load_run as load_run
@@ -27,3 +32,4 @@ from flexcage.study.run import run_study as run_study
 from flexcage.study.spec import Study as Study
 from flexcage.study.spec import load_study as load_study
 from flexcage.system.statics.solution import StaticSolution as StaticSolution
+from flexcage.warming.loop import warm as warm

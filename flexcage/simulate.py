@@ -15,7 +15,7 @@ from flexcage.core.binding import expect, path_of
 from flexcage.core.locks import held
 from flexcage.core.output_folders import check_no_file
 from flexcage.core.timing import Stages
-from flexcage.integrate.integration import Integration
+from flexcage.integrate.integration import integration_of
 from flexcage.results.store import MemoryRunStore
 from flexcage.run import Run, warnings_at_start
 from flexcage.run.cost import note_pace, report_cost
@@ -80,7 +80,7 @@ def _simulated(
         case, bearing, (mesh, cage), folder, study=Path(study) if study else None, warned=warned
     )
     run = Run(case, store, folder, mesh, cage, start, stages)
-    integration = Integration(
+    integration = integration_of(
         bearing, recording_of(case.bearing), start, store, solver=case.solver, output=case.output
     )
     stages("solve", integration.march, progress)

@@ -14,6 +14,7 @@ from flexcage.geometry.bearing import RingLand as RingLand
 from flexcage.geometry.cage import Cage as Cage
 from flexcage.geometry.defect import CageDefect as CageDefect
 from flexcage.geometry.fits.spec import Fit as Fit
+from flexcage.geometry.heat.spec import Heat as Heat
 from flexcage.geometry.life.spec import Life as Life
 from flexcage.geometry.life.spec import LoadPoint as LoadPoint
 from flexcage.geometry.materials import MATERIALS as MATERIALS
@@ -22,6 +23,14 @@ from flexcage.geometry.ring import InnerRing as InnerRing
 from flexcage.geometry.ring import OuterRing as OuterRing
 from flexcage.geometry.spall import Spall as Spall
 from flexcage.geometry.temperature import ModulusCurve as ModulusCurve
+from flexcage.machine.machine import SeatedBearing as SeatedBearing
+from flexcage.machine.spec import BearingPlace as BearingPlace
+from flexcage.machine.spec import Disc as Disc
+from flexcage.machine.spec import Gravity as Gravity
+from flexcage.machine.spec import Shaft as Shaft
+from flexcage.machine.spec import ShaftLoad as ShaftLoad
+from flexcage.machine.spec import ShaftSection as ShaftSection
+from flexcage.machine.spec import Whirl as Whirl
 from flexcage.mesh.options import MeshOptions as MeshOptions
 from flexcage.modes.spec import DampingBand as DampingBand
 from flexcage.modes.spec import ModesSpec as ModesSpec

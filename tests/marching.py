@@ -9,7 +9,7 @@ import numpy as np
 
 from flexcage.bearings import recording_of
 from flexcage.case import Case
-from flexcage.integrate.integration import Integration
+from flexcage.integrate.integration import Integration, integration_of
 from flexcage.integrate.recorded import new_store
 from flexcage.system.begun import Start
 from flexcage.system.problem import BearingSystem
@@ -32,7 +32,7 @@ def march(
     store = new_store(
         None, bearing, recording, duration=case.solver.duration, output=case.output, attrs={}
     )
-    integration = Integration(
+    integration = integration_of(
         bearing, recording, start, store, solver=case.solver, output=case.output
     )
     if also is not None:

@@ -8,6 +8,7 @@ from flexcage.bearings.family import (
     bending_of,
     family_of,
     in_motion,
+    losses_of,
     motion_of,
     recording_of,
     sections_of,
@@ -15,6 +16,6 @@ from flexcage.bearings.family import (
 )
 
 __all__ = [
-    "Family", "bending_of", "family_of", "in_motion", "motion_of", "recording_of", "sections_of",
-    "statics_of",
+    "Family", "bending_of", "family_of", "in_motion", "losses_of", "motion_of", "recording_of",
+    "sections_of", "statics_of",
 ]  # fmt: skip

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from flexcage.stress.rubbing import Rub
     from flexcage.system.motion import BendingMotion, Motion
     from flexcage.system.statics.elements import ElementsOf
+    from flexcage.system.statics.losses import LossesOf
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,7 +35,7 @@ class Family:
     where a family has nothing of the kind: no static solution (``statics``), or neither equations
     of motion (``motion``) nor a record of them (``recording``), no pictures (``shapes``), no rule
     by which ``flexcage new`` infers internal geometry (``inside``), no rings that bend (``rings``),
-    none that bend in a run (``bending``).
+    none that bend in a run (``bending``), no losses of a static solution (``losses``).
     """
 
     name: str
@@ -51,6 +52,7 @@ class Family:
     inside: Callable[[], Inference] | None  # inferred from a catalogue's ratings
     rings: Callable[[], SectionsOf] | None = None  # sections of rings that bend
     bending: Callable[[], BendingMotion] | None = None  # motion between rings that bend
+    losses: Callable[[], LossesOf] | None = None  # of static solutions
     other_designs: Mapping[str, str] = field(default_factory=dict)
 
     @property
@@ -88,6 +90,14 @@ def statics_of(bearing: Bearing) -> ElementsOf:
     if statics is None:
         raise _lacking(bearing, "static solution")
     return statics()
+
+
+def losses_of(bearing: Bearing) -> LossesOf:
+    """What finds the losses of a bearing's static solution; InputError without it."""
+    losses = family_of(bearing).losses
+    if losses is None:
+        raise _lacking(bearing, "losses of a static solution")
+    return losses()
 
 
 def sections_of(bearing: Bearing) -> SectionsOf | None:

@@ -44,14 +44,14 @@ from flexcage.geometry.cage import Cage
 from flexcage.system.statics.options import StaticOptions
 
 _FEW = 8  # values of a list that a notebook shows
-_NOT_PHYSICS = ("name", "description", "preset", "static", "given")
+_NOT_PHYSICS = ("name", "description", "preset", "heat", "static", "given")
 _MOUNTED = ("bearing", "load")  # which [fit] changes: what follows of it counts
 #: Sections in the order of texts and pages; others follow.
 _ORDER = (
     "name", "description", "preset", "bearing", "fit", "cage", "cage_model", "defects", "mesh",
     "modes", "lubricant", "contacts", "drive", "load", "mount", "constraints", "start", "solver",
     "output", "sensors", "limits", "seed", "given", "inner_ring", "outer_ring", "life",
-    "static",
+    "heat", "static",
 )  # fmt: skip
 
 

@@ -11,6 +11,7 @@ from typing import Any
 from flexcage.bearings import in_motion
 from flexcage.cages import cage_type_of
 from flexcage.case.fit_checks import find_in_fit
+from flexcage.case.heat_checks import find_in_heat
 from flexcage.case.life_checks import find_in_life
 from flexcage.case.read_values import files_of
 from flexcage.case.ring_checks import find_bending_in_run, find_in_rings
@@ -645,5 +646,6 @@ _OF_EVERY_CASE = (
     find_in_rings,
     find_in_fit,
     find_in_life,
+    find_in_heat,
 )
 _OF_CAGES = (_find_in_mesh, _find_in_temperature, _find_in_land)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import re
 import typing
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from math import inf
 from pathlib import Path
@@ -49,7 +49,7 @@ kind does as well. A preset gives values of its own, which count before these de
 """
 _KINDS = {float: "number", int: "whole number", bool: "true, false", str: "text", Path: "path"}
 _HIDDEN = ("given",)  # not for files
-_STATIC = ("static",)  # which no run reads
+_OF_COMMAND = {"static": "static", "heat": "warm"}  # sections of one command
 
 
 @dataclass(frozen=True)
@@ -86,14 +86,14 @@ def groups() -> list[Group]:
             found += _section(field)
     for cls, (name, section) in SHARED.items():
         known = f": {', '.join(NAMED[cls])}, or values of its own" if cls in NAMED else ""
-        found += _of_spec(section, "", f"A {name}{known}", cls, None)
+        found += of_spec(section, "", f"A {name}{known}", cls, None)
     return found
 
 
-def chosen(wanted: str) -> list[Group]:
-    """Groups of a section; or of all keys whose path or meaning holds the text. InputError if
-    there are none."""
-    every = groups()
+def chosen(wanted: str, more: Iterable[Group] = ()) -> list[Group]:
+    """Groups of a section; or of all keys whose path or meaning holds the text, ``more`` among
+    them. InputError if there are none."""
+    every = [*groups(), *more]
     section = [group for group in every if group.section == wanted]
     if section:
         return section
@@ -131,8 +131,9 @@ def _section(field: dataclasses.Field) -> Iterator[Group]:
     elif _is_list(Case, field):
         yield from _listed(name, specs[0])
     else:
-        readers = ", read by `flexcage static` alone" if name in _STATIC else ""
-        yield from _of_spec(name, name, f"[{name}]{readers}", specs[0], default)
+        command = _OF_COMMAND.get(name)
+        readers = f", read by `flexcage {command}` alone" if command else ""
+        yield from of_spec(name, name, f"[{name}]{readers}", specs[0], default)
 
 
 def _listed(name: str, cls: type) -> Iterator[Group]:
@@ -160,7 +161,7 @@ def _cages() -> Iterator[Group]:
     yield from _by_owner("cage", "cage", "[cage]", variants, None)
 
 
-def _of_spec(section: str, path: str, title: str, cls: type, default: Any) -> Iterator[Group]:
+def of_spec(section: str, path: str, title: str, cls: type, default: Any) -> Iterator[Group]:
     """Groups of a spec's keys, and of lists of specs inside it."""
     variants = _variants(cls)
     yield from _by_owner(section, path, title, variants, default)
@@ -169,7 +170,7 @@ def _of_spec(section: str, path: str, title: str, cls: type, default: Any) -> It
             if field.init and _is_list(kind, field):
                 for inner in _specs(kind, field):
                     name = join(path, field.name)
-                    yield from _of_spec(section, "", f"[[{name}]]", inner, None)
+                    yield from of_spec(section, "", f"[[{name}]]", inner, None)
 
 
 def _variants(cls: type) -> list[tuple[str, type]]:
@@ -267,6 +268,8 @@ def _default(value: Any, meta: Mapping) -> str:
         return REQUIRED
     if value is None or value in ((), "", inf):
         return ""
+    if isinstance(value, tuple):
+        return f"[{', '.join(_default(item, meta) for item in value)}]"
     unit = meta.get("unit")
     if unit:
         return format_si(value, unit)

@@ -21,6 +21,7 @@ from flexcage.geometry.cage import Cage
 from flexcage.geometry.defect import CageDefect, defect_spec
 from flexcage.geometry.fits.mounting import Mounting
 from flexcage.geometry.fits.spec import Fit
+from flexcage.geometry.heat.spec import Heat
 from flexcage.geometry.life.spec import Life
 from flexcage.geometry.other_kinds import SURROUNDINGS
 from flexcage.geometry.ring import InnerRing, OuterRing
@@ -112,6 +113,7 @@ class StaticSections(RingSections, NamedSections):
     """Bearing, contacts, load, speed and options, of which a static solution is made."""
 
     life: Life = option(Life(), doc="how life is quoted, and of which load spectrum")
+    heat: Heat = option(Heat(), doc="how heat leaves the bearing, for temperatures that settle")
     static: StaticOptions = option(StaticOptions(), doc="how a static solution is meant")
     given: tuple[str, ...] | None = dataclasses.field(
         default=None, compare=False,

@@ -137,10 +137,10 @@ class StaticCase(StaticSections):
         return values
 
     def to_table(self) -> dict[str, Any]:
-        """Nested tables of texts with units, complete but for rings, fits and lives as by
+        """Nested tables of texts with units, complete but for rings, fits, lives and heat as by
         default."""
         table = to_table(self, named=NAMED)
-        for name in ("inner_ring", "outer_ring", "fit", "life"):
+        for name in ("inner_ring", "outer_ring", "fit", "life", "heat"):
             if getattr(self, name) == default_of(StaticCase.__dataclass_fields__[name]):
                 del table[name]
         if not self._in_motion:
@@ -188,7 +188,7 @@ def _asked_nothing() -> dict[str, Any]:
     """Sections as by default."""
     names = (
         "contacts", "lubricant", "drive", "load", "inner_ring", "outer_ring", "mount", "static",
-        "fit", "life",
+        "fit", "life", "heat",
     )  # fmt: skip
     return {name: default_of(StaticCase.__dataclass_fields__[name]) for name in names}
 
@@ -244,11 +244,11 @@ def load_static(
             raise InputError(
                 f"'{path}' takes no part in a static solution; leave it out.", where=path
             )
-        table = _put(table, path.split("."), value, path)
+        table = put(table, path.split("."), value, path)
     return StaticCase.from_table(table, folder=folder)
 
 
-def _put(table: Mapping[str, Any], keys: list[str], value: Any, path: str) -> dict[str, Any]:
+def put(table: Mapping[str, Any], keys: list[str], value: Any, path: str) -> dict[str, Any]:
     """Copy of nested tables with one value replaced, also one of a table in a list."""
     head, *rest = keys
     if not rest:
@@ -256,9 +256,11 @@ def _put(table: Mapping[str, Any], keys: list[str], value: Any, path: str) -> di
     below = table.get(head, {})
     if isinstance(below, list) and rest[0].isdigit() and int(rest[0]) < len(below):
         places = {str(k): item for k, item in enumerate(below)}
-        return {**table, head: [*_put(places, rest, value, path).values()]}
+        return {**table, head: [*put(places, rest, value, path).values()]}
     if isinstance(below, str):
         below = {"name": below}  # a material by name, of which a value is overridden
     if not isinstance(below, Mapping):
-        raise InputError(f"'{path}' leads nowhere in the case of a static solution.", where=path)
-    return {**table, head: _put(below, rest, value, path)}
+        raise InputError(
+            f"'{path}' leads nowhere here: a table or an entry on its way is not there.", where=path
+        )
+    return {**table, head: put(below, rest, value, path)}

@@ -42,7 +42,7 @@ def with_preset(table: dict[str, Any]) -> dict[str, Any]:
         raise InputError(f"bearing.preset is {name!r}, but should be text.", where="bearing.preset")
     preset = load_preset(name)
     _refuse_other_type(preset, bearing)
-    return _merge(_without_other_cage(preset, table), table)
+    return merged(_without_other_cage(preset, table), table)
 
 
 def without_cage(table: dict[str, Any]) -> dict[str, Any]:
@@ -87,16 +87,16 @@ def _without_other_cage(preset: Preset, table: Mapping[str, Any]) -> Mapping[str
     return {**preset.tables, "cage": {k: v for k, v in cage.items() if k in known}}
 
 
-def _merge(low: Mapping[str, Any], high: Mapping[str, Any]) -> dict[str, Any]:
+def merged(low: Mapping[str, Any], high: Mapping[str, Any]) -> dict[str, Any]:
     """Tables of ``low`` overridden by ``high``, table by table; a name in ``low`` is one too."""
-    merged = dict(low)
+    both = dict(low)
     for key, value in high.items():
-        below = merged.get(key)
+        below = both.get(key)
         if isinstance(value, Mapping) and isinstance(below, str):
             below = {"name": below}  # a material by name, of which some values are overridden
-        both = isinstance(value, Mapping) and isinstance(below, Mapping)
-        merged[key] = _merge(below, value) if both else value  # type: ignore[arg-type]
-    return merged
+        deeper = isinstance(value, Mapping) and isinstance(below, Mapping)
+        both[key] = merged(below, value) if deeper else value  # type: ignore[arg-type]
+    return both
 
 
 def as_pairs(path: Any, value: Any) -> dict[str, Any]:

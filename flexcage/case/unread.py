@@ -13,7 +13,7 @@ from flexcage.core.unread import unread, why_unread
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
 
-_WORDS = ("name", "description", "preset", "static", "given")  # read by people, or by no run
+_WORDS = ("name", "description", "preset", "heat", "static", "given")  # for people, or no run
 _RIGID = "cage.model is 'rigid'"
 _NEVER = {  # of materials beside the cage's, whose strength and damping no figure needs
     "proof_stress": "no strength of rings and rolling elements is computed",

@@ -32,14 +32,19 @@ def add_commands(commands: Any) -> None:
 
 
 def keys_command(args: argparse.Namespace) -> int:
-    """flexcage keys [SECTION or TEXT ...]: keys of a case; alone, the sections."""
+    """flexcage keys [SECTION or TEXT ...]: keys of a case, or of a machine; alone, the sections."""
     from flexcage.case import keys
+    from flexcage.machine.keys import groups_of_machines
 
     if not args.wanted:
         say(keys.contents().text())
-        say("\n'flexcage keys SECTION' lists its keys.\n'flexcage keys TEXT' finds keys by a text.")
+        say(
+            "\n'flexcage keys SECTION' lists its keys.\n'flexcage keys machine' lists "
+            "those of a machine.\n'flexcage keys TEXT' finds keys by a text."
+        )
         return 0
-    listings = [group.listing() for wanted in args.wanted for group in keys.chosen(wanted)]
+    more = groups_of_machines()
+    listings = [group.listing() for wanted in args.wanted for group in keys.chosen(wanted, more)]
     page = keys.PAGE.format(", ".join(args.wanted), " ".join(args.wanted))
     return _show(listings, args, page)
 

@@ -1,4 +1,4 @@
-"""Commands that take a case: run, static, mesh, modes, converge."""
+"""Commands that take a case: run, static, warm, mesh, modes, converge."""
 
 from __future__ import annotations
 
@@ -9,15 +9,24 @@ from typing import Any
 
 from flexcage.cli.files import prepare_file, prepare_out, run_folder
 from flexcage.cli.parser import case_options, command, picture_options, say
-from flexcage.cli.settings import case_from, checked_case_from, look_of, settings_of
+from flexcage.cli.settings import (
+    case_from,
+    case_or_static,
+    checked_case_from,
+    look_of,
+    settings_of,
+)
 from flexcage.core.errors import InputError
 from flexcage.core.garbage import while_loading
+
+_WARM = ("warm.json",)
 
 
 def add_commands(commands: Any) -> None:
     """Add this module's commands to the parser."""
     _add_run(commands)
     _add_static(commands)
+    _add_warm(commands)
     _add_mesh_and_modes(commands)
     _add_converge(commands)
 
@@ -40,12 +49,25 @@ def _add_run(commands: Any) -> None:
 def _add_static(commands: Any) -> None:
     text = "equilibrium under load: displacements, contact loads, stiffness, life"
     static = command(commands, "static", static_command, text)
-    static.add_argument("case", metavar="CASE", help="case file (.toml)")
+    static.add_argument("case", metavar="CASE", help="file of a case or a machine (.toml)")
     static.add_argument(
         "--set", action="append", metavar="PATH=VALUE", help="change a value of the case"
     )
     static.add_argument("-o", "--out", metavar="DIR", help="folder for table, JSON and picture")
     static.add_argument("--force", action="store_true", help="write an existing folder anew")
+
+
+def _add_warm(commands: Any) -> None:
+    text = "temperatures at which losses and heat that leaves agree; viscosity, clearance"
+    warm = command(commands, "warm", warm_command, text)
+    warm.add_argument("case", metavar="CASE", help="case file (.toml)")
+    warm.add_argument(
+        "--set", action="append", metavar="PATH=VALUE", help="change a value of the case"
+    )
+    warm.add_argument(
+        "-o", "--out", metavar="DIR", help="folder for record, picture and settled case"
+    )
+    warm.add_argument("--force", action="store_true", help="write an existing folder anew")
 
 
 def _add_mesh_and_modes(commands: Any) -> None:
@@ -82,9 +104,13 @@ def _add_converge(commands: Any) -> None:
 
 
 def run_command(args: argparse.Namespace) -> int:
-    """flexcage run CASE: simulate, summarise, draw."""
+    """flexcage run CASE: simulate, summarise, draw; a machine with all of its bearings."""
+    from flexcage.case.read import names_machine
+
     if args.other_version and not args.resume:
         raise InputError("--other-version belongs to --resume.", where="other-version")
+    if names_machine(Path(args.case)):
+        return _run_machine(args)
     case, look = case_from(args), look_of(args)
     args.out = out = Path(args.out) if args.out else Path("runs") / case.name
     with run_folder(out, resume=args.resume, force=args.force):
@@ -107,11 +133,46 @@ def run_command(args: argparse.Namespace) -> int:
     return 0
 
 
+def _run_machine(args: argparse.Namespace) -> int:
+    from flexcage.case.read import read_machine
+    from flexcage.machine import load_machine
+    from flexcage.machine.writing import OURS
+
+    if args.resume:
+        raise InputError(
+            "--resume: a machine's run is not gone on with; --force writes it anew.", where="resume"
+        )
+    look, overrides = look_of(args), settings_of(args)
+    if args.cage:
+        count = len(read_machine(Path(args.case))[0].get("bearings", []))
+        overrides |= {f"bearings.{k}.cage.model": args.cage for k in range(count)}
+    machine = load_machine(Path(args.case), overrides=overrides)
+    out = Path(args.out) if args.out else Path("runs") / machine.name
+    prepare_out(out, resume=False, force=args.force, resumable=False, ours=(*OURS, "case.toml"))
+    with while_loading():
+        from flexcage.core.progress import Progress
+        from flexcage.machine_run import simulate_machine
+
+    run = simulate_machine(machine, out=out, progress=Progress)
+    say(run.summary.text())
+    say(
+        f"\nThe run is in {out}: shaft.nc and machine_summary.txt, and a run of each bearing in a "
+        "folder there"
+    )
+    if not args.no_images:
+        draw(run, out / "images", animate=args.animate, **look)
+    return 0
+
+
 def static_command(args: argparse.Namespace) -> int:
-    """flexcage static CASE: equilibrium of the inner ring, contact loads, stiffness, life."""
+    """flexcage static CASE: equilibrium of the inner ring, contact loads, stiffness, life; of a
+    machine, of its shaft and all bearings."""
     from flexcage.case import load_static
+    from flexcage.case.read import names_machine
     from flexcage.static import solve_static, write_static
 
+    if names_machine(Path(args.case)):
+        return _static_machine(args)
     case = load_static(Path(args.case), overrides=settings_of(args))
     if args.out:
         prepare_out(Path(args.out), resume=False, force=args.force, resumable=False)
@@ -121,6 +182,40 @@ def static_command(args: argparse.Namespace) -> int:
         write_static(case, solution, Path(args.out))
         say(f"\nThe table, its numbers and a picture are in {args.out}")
     return 0
+
+
+def _static_machine(args: argparse.Namespace) -> int:
+    from flexcage.machine import load_machine
+    from flexcage.machine.solve import solve_machine
+    from flexcage.machine.writing import OURS, write_machine
+
+    machine = load_machine(Path(args.case), overrides=settings_of(args))
+    if args.out:
+        ours = (*OURS, "case.toml")
+        prepare_out(Path(args.out), resume=False, force=args.force, resumable=False, ours=ours)
+    solution = solve_machine(machine)
+    say(solution.table())
+    if args.out:
+        write_machine(machine, solution, Path(args.out))
+        say(f"\nTable, numbers and pictures are in {args.out}, of each bearing in a folder there")
+    return 0
+
+
+def warm_command(args: argparse.Namespace) -> int:
+    """flexcage warm CASE: temperatures that settle, or a runaway, which is a result (code 0)."""
+    from flexcage.core.progress import Progress
+    from flexcage.warming import warm, write_warmth
+
+    case = case_or_static(args)
+    if args.out:
+        prepare_out(Path(args.out), resume=False, force=args.force, resumable=False, ours=_WARM)
+    warmth = warm(case, progress=Progress)
+    say(warmth.table())
+    if args.out:
+        write_warmth(warmth, Path(args.out))
+        settled = ", and case.toml is the case at these temperatures" if warmth.settled else ""
+        say(f"\nThe table, its numbers and a picture are in {args.out}{settled}")
+    return 1 if warmth.verdict == "not settled" else 0
 
 
 def mesh_command(args: argparse.Namespace) -> int:

@@ -33,6 +33,20 @@ def checked_case_from(args: argparse.Namespace) -> Any:
     return case
 
 
+def case_or_static(args: argparse.Namespace) -> Any:
+    """The case named on the command line with --set applied: one that can be run or, of a file
+    without a cage, that of a static solution."""
+    from flexcage.case import load_case, load_static
+
+    try:
+        return load_case(Path(args.case), overrides=settings_of(args))
+    except InputError as whole:
+        try:
+            return load_static(Path(args.case), overrides=settings_of(args))
+        except InputError as alone:
+            raise alone if "cage" in str(whole.where or "") else whole from None
+
+
 def settings_of(args: argparse.Namespace) -> dict[str, Any]:
     """Values of --set by path, and that of --fineness."""
     found = dict(parse_setting(text) for text in args.set or ())

@@ -72,6 +72,13 @@ _COMMON: dict[str, tuple[str, int, float]] = {
     "g*mm": ("unbalance", -6, 1.0),
     "K": ("temperature", 0, 1.0),
     "degC": ("temperature", 0, 1.0),
+    "W": ("power", 0, 1.0),
+    "W/K": ("thermal conductance", 0, 1.0),
+    "W/(m^2*K)": ("heat transfer", 0, 1.0),
+    "W/(m*K)": ("thermal conductivity", 0, 1.0),
+    "J/(kg*K)": ("specific heat", 0, 1.0),
+    "l/min": ("flow", -3, 1.0 / 60.0),
+    "m^3/s": ("flow", 0, 1.0),
 }
 # units whose zero is not SI's: what it is there
 _ZEROS = {"degC": Decimal("273.15")}
@@ -102,6 +109,12 @@ _LIMITS: dict[str, tuple[float, float]] = {
     "unbalance": (1e-15, 1e3),
     "temperature": (1e-3, 1e4),
     "thermal expansion": (1e-9, 1e-2),
+    "power": (1e-9, 1e9),
+    "thermal conductance": (1e-9, 1e6),
+    "heat transfer": (1e-6, 1e9),
+    "thermal conductivity": (1e-4, 1e4),
+    "specific heat": (1.0, 1e5),
+    "flow": (1e-15, 10.0),
 }
 _DECIMAL_COMMA = re.compile(r"\s*[+-]?\d+,\d+\s*\D")
 _THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2},\d{3}(?!\d)")

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from flexcage.contacts.evaluation import DAMPED, ROLLED
 from flexcage.core.wings import FAMILIES
 from flexcage.integrate.postures import orientation, to_body
 from flexcage.integrate.recording import Recording
@@ -141,6 +142,7 @@ def _common(bearing: BearingSystem, y: np.ndarray, yd: np.ndarray) -> dict[str, 
         "outer_moment": s.outer_wrench[:n, 3:],
         **(_cage(bearing, y, yd) if layout.has_cage else {}),
         "multiplier": layout.multipliers(y),
+        "race_power": s.race[:n, :, :, DAMPED : ROLLED + 1].sum(axis=(1, 3)),
         "energy": s.energy[:n],
     }
     if layout.bends:

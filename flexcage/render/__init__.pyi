@@ -18,3 +18,4 @@ from flexcage.render.static_pictures import static_picture as static_picture
 from flexcage.render.stress_pictures import deformation_picture as deformation_picture
 from flexcage.render.stress_pictures import envelope_picture as envelope_picture
 from flexcage.render.stress_pictures import stress_picture as stress_picture
+from flexcage.render.warm_pictures import warm_picture as warm_picture

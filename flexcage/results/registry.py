@@ -230,6 +230,12 @@ def _common() -> Iterator[Variable]:
         "element", "race",
     )  # fmt: skip
     yield sampled(
+        "race_power", "W",
+        "power of damping, friction and rolling resistance at all contacts with a race (losses "
+        "< 0)",
+        "race",
+    )  # fmt: skip
+    yield sampled(
         "ring_load", "N, N, N m",
         "force of an element on the race of a ring that bends, and its moment in tilt; zero at a "
         "rigid one",

@@ -17,7 +17,6 @@ import numpy as np
 from flexcage.core.errors import InputError
 from flexcage.results import metrics
 from flexcage.results.evenly import FEWEST, grid_of, series
-from flexcage.results.figures.table import FIGURES
 from flexcage.results.frequencies import bearing_frequencies as bearing_frequencies
 from flexcage.results.frequencies import own_frequencies as own_frequencies
 from flexcage.results.frequencies import run_frequencies
@@ -93,7 +92,7 @@ def _outer_envelope(ds: xarray.Dataset) -> xarray.DataArray | None:
 SIGNALS: Mapping[str, Signal] = MappingProxyType(
     {
         "cage_centre": Signal("Cage centre, from the outer ring's", _cage_centre),
-        "cage_speed": Signal(FIGURES["cage_speed"].title, _cage_speed),
+        "cage_speed": Signal("Cage speed", _cage_speed),
         "pocket_forces": Signal("Sum of the pocket forces", _pocket_forces),
         "orbital_speed": Signal("Mean orbital speed of the elements", _orbital_speed),
         "neighbour_forces": Signal("Sum of the forces between neighbours", _neighbour_forces),

@@ -18,9 +18,11 @@ from flexcage.core.wings import FAMILIES
 from flexcage.results.figures.figure import (
     CAGED,
     FATIGUE,
+    FITTED,
     FLEXIBLE,
     FULL,
     LATER,
+    QUOTED,
     RIVETED,
     SIGNED,
     TEXT,
@@ -313,10 +315,14 @@ OF_RINGS = {
 }  # fmt: skip
 
 
+#: Sections without which a case has no such figures.
+OF_SECTIONS = (FITTED, QUOTED)
+
+
 def check_outputs(
     names: tuple[str, ...], *, family: str, sizes: Mapping[str, int], flexible: bool,
     riveted: bool = False, caged: bool = True, uncaged: bool = False,
-    materials: Collection[str] = (),
+    materials: Collection[str] = (), sections: Collection[str] = (),
     reactions: Collection[str] = CONSTRAINTS, rings: Collection[str] = (),
 ) -> None:  # fmt: skip
     """Raise InputError for the first output that no run of the study can give.
@@ -324,7 +330,8 @@ def check_outputs(
     ``sizes`` holds the least length in any case of dimensions that are counted (rolling elements,
     pockets, slices), ``family`` is that of the bearings, ``flexible`` says whether any cage is,
     ``riveted`` whether one of these is riveted, ``caged`` and ``uncaged`` whether any case has a
-    cage, and whether any has none, ``materials`` names those of all cages, ``reactions`` the
+    cage, and whether any has none, ``materials`` names those of all cages, ``sections`` of
+    ``OF_SECTIONS`` those that any case has, ``reactions`` the
     constraints that every case has, and ``rings`` those of the dimensions ``OF_RINGS`` that any
     case has. Raises EnvironmentLacks for fatigue without pyLife.
     """
@@ -361,6 +368,7 @@ def check_outputs(
                 _check_late(name, materials)
                 _check_family(name, FIGURES.owners(name), family)
         _check_cages(name, caged=caged, uncaged=uncaged)
+        _check_sections(name, sections)
         if needs and not flexible:
             raise InputError(
                 f"Output '{name}' needs a flexible cage, but every cage of the study is rigid; "
@@ -376,6 +384,19 @@ def check_outputs(
                 where="outputs",
                 value=name,
             )
+
+
+def _check_sections(name: str, sections: Collection[str]) -> None:
+    """Refuse an output that only cases with a section have which no case has."""
+    needs = FIGURES[name].needs if name in FIGURES else ""
+    if needs in OF_SECTIONS and needs not in sections:
+        section = needs.removeprefix("section ")
+        raise InputError(
+            f"Output '{name}' is of cases with {section}, but no case of the study has it; give "
+            f"{section} or leave it out.",
+            where="outputs",
+            value=name,
+        )
 
 
 def _check_cages(name: str, *, caged: bool, uncaged: bool) -> None:

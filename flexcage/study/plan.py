@@ -15,6 +15,7 @@ from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
 from flexcage.core.units import format_si
 from flexcage.modes.registry import basis_version
+from flexcage.results.figures.figure import FITTED, QUOTED
 from flexcage.results.registry import own_variables
 from flexcage.study.axes import Axis, Point, Points
 from flexcage.study.outputs import check_outputs
@@ -63,7 +64,7 @@ def make_plan(study: Study) -> Plan:
     flexible = riveted = caged = uncaged = False
     sizes = _counts(study.case)
     materials, held = dict[str, None](), set(names_of(study.case.constraints))
-    rings = set[str]()
+    rings, sections = set[str](), set[str]()
     for number, point in enumerate(points):
         for repetition in range(study.repeat.count):
             try:
@@ -86,6 +87,8 @@ def make_plan(study: Study) -> Plan:
             uncaged |= case.cage is None
             riveted |= case.riveted
             rings |= _of_rings(case)
+            sections |= {FITTED} if case.fit.given else set()
+            sections |= {QUOTED} if case.life.given else set()
             if case.cage is not None:
                 materials[case.cage.material.name] = None
             held = held.intersection(names_of(case.constraints))
@@ -93,7 +96,7 @@ def make_plan(study: Study) -> Plan:
     check_outputs(
         study.outputs, sizes=sizes, flexible=flexible, riveted=riveted, family=family,
         caged=caged, uncaged=uncaged, materials=materials,
-        reactions=(*CONSTRAINTS, *sorted(held)), rings=rings,
+        reactions=(*CONSTRAINTS, *sorted(held)), rings=rings, sections=sections,
     )  # fmt: skip
     return Plan(study, tuple(cases))
 

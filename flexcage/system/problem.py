@@ -22,51 +22,42 @@ from flexcage.contacts.evaluation import RESIDUAL
 from flexcage.contacts.land import NONE
 from flexcage.contacts.spec import Contacts
 from flexcage.core.garbage import uncollected
-from flexcage.core.jit import (
-    OPTIONS,
-    FieldsType,
-    allocating_kernel,
-    boxed,
-    compiled,
-)
+from flexcage.core.jit import FieldsType, boxed, compiled
 from flexcage.core.kernel_values import KernelType
 from flexcage.geometry.bearing import Bearing as BearingSpec
 from flexcage.solve import runge_kutta
 from flexcage.solve.bordered import Bordered, new_bordered
-from flexcage.solve.contract import Integrator
 from flexcage.solve.oscillators import Oscillators
 from flexcage.system import newton, rates, sampling
 from flexcage.system.constraint_equations import apply_constraints, no_constraints
 from flexcage.system.constraints import ALL_ROWS_TYPE, Constraints, constraints_of, units_of
 from flexcage.system.data import LANDS, POWERS, Memory, Report, Work, new_memory
+from flexcage.system.integrable import COUNT, REAL, VECTOR, Integrable
 from flexcage.system.layout import RING, Layout, Places
 from flexcage.system.motion import Motion
 from flexcage.system.rates import RatesWork, modal_oscillators, new_rates_work
+from flexcage.system.scales import work_weights
 from flexcage.system.spec import Constraint
 from flexcage.system.time_functions import corners
 
 if TYPE_CHECKING:
     from flexcage.system.rings.moving import MovingRings
 
-ITERATIONS = 40  # of the spectral radius
-NUDGE = 5e-12  # [m] over which it takes differences
 LEAST_INTERVAL = 2e-6  # [s] at the least, between steps that are kept for the cage's stress
-_REAL, _COUNT = types.float64, types.int64
-_VECTOR, _MATRIX = types.Array(types.float64, 1, "C"), types.Array(types.float64, 2, "C")
 _NONE, _FLAG = types.void, types.boolean
 #: What integrators may ask of a problem: a function, its result and its arguments; None: ``data``.
 PROBLEM: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
-    "residual": (newton.residual, (_NONE, _REAL, _VECTOR, _VECTOR, None, _VECTOR, _VECTOR)),
-    "linearise": (newton.linearise, (_NONE, _REAL, _VECTOR, _VECTOR, None)),
-    "factor": (newton.factor, (_FLAG, _REAL, None)),
-    "backsolve": (newton.backsolve, (_NONE, _REAL, _VECTOR, _VECTOR, None)),
-    "observe": (sampling.observe, (_NONE, _COUNT, _REAL, _VECTOR, _VECTOR, None)),
-    "rates": (rates.rates, (_NONE, _REAL, _VECTOR, _VECTOR, None, _VECTOR)),
-    "powers": (sampling.powers, (_COUNT, _REAL, _VECTOR, None, _VECTOR)),
-    "settle": (sampling.settle, (_NONE, _REAL, _VECTOR, None)),
-    "note": (sampling.note, (_NONE, _REAL, _VECTOR, None)),
-    "wanted": (sampling.wanted, (_FLAG, _COUNT, None)),
-    "sample": (rates.sample, (_NONE, _COUNT, _REAL, _VECTOR, _VECTOR, None)),
+    "residual": (newton.residual, (_NONE, REAL, VECTOR, VECTOR, None, VECTOR, VECTOR)),
+    "linearise": (newton.linearise, (_NONE, REAL, VECTOR, VECTOR, None)),
+    "factor": (newton.factor, (_FLAG, REAL, None)),
+    "backsolve": (newton.backsolve, (_NONE, REAL, VECTOR, VECTOR, None)),
+    "observe": (sampling.observe, (_NONE, COUNT, REAL, VECTOR, VECTOR, None)),
+    "rates": (rates.rates, (_NONE, REAL, VECTOR, VECTOR, None, VECTOR)),
+    "powers": (sampling.powers, (COUNT, REAL, VECTOR, None, VECTOR)),
+    "settle": (sampling.settle, (_NONE, REAL, VECTOR, None)),
+    "note": (sampling.note, (_NONE, REAL, VECTOR, None)),
+    "wanted": (sampling.wanted, (_FLAG, COUNT, None)),
+    "sample": (rates.sample, (_NONE, COUNT, REAL, VECTOR, VECTOR, None)),
 }
 
 
@@ -182,11 +173,13 @@ def _low(model: Any, layout: Layout) -> int:
 def _evaluation(bearing: Any, law: Any) -> Any:
     """numba's signature of ``Motion.evaluate``, of ``Motion.separate``, and of what puts
     constraints into them."""
-    return types.void(_REAL, _VECTOR, _VECTOR, bearing, law, _VECTOR, _COUNT)
+    return types.void(REAL, VECTOR, VECTOR, bearing, law, VECTOR, COUNT)
 
 
-class BearingSystem:
+class BearingSystem(Integrable):
     """A bearing ready to be integrated: its data, and functions that are compiled when needed."""
+
+    quads = len(POWERS)
 
     def __init__(
         self, motion: Motion[Any], spec: BearingSpec, model: Any, contacts: Contacts,
@@ -197,6 +190,7 @@ class BearingSystem:
         """``motion`` moves bearings of the ``spec``'s family; ``layout.held`` holds the
         ``constraints.names_of`` the constraints; ``rings`` are those that bend, ``seat`` (5, 5) is
         the compliance of the outer ring's, if it yields."""
+        super().__init__()
         model = model._replace(cage=marked(model.cage))
         self.motion, self.spec, self.layout, self.rings = motion, spec, layout, rings
         self.seat = seat
@@ -232,9 +226,6 @@ class BearingSystem:
         law_type = types.Tuple((*own_laws, *separate))
         self._evaluation = _evaluation(bearing, law_type)
         self.data_type = types.Tuple((bearing, law_type, KernelType(self._evaluation)))
-        self._functions: dict[str, Any] = {}
-        self._advance: dict[str, Any] = {}
-        self._radius: Any = None
 
     @cached_property
     def evaluate(self) -> Any:
@@ -285,32 +276,21 @@ class BearingSystem:
                 for function in self.motion.separate
             ),
             lambda: self.evaluate,
-            lambda: self._advance_of(method, state, runge_kutta.RungeKuttaOptions(1.0, 0.0, 1)),
-            lambda: kernel_for(newton.newton_step, _REAL, _VECTOR, _VECTOR, at, tangent, matrix),
-            lambda: kernel_for(newton.assemble, _REAL, bodies, at, tangent, matrix),
+            lambda: self.advance_of(method, state, runge_kutta.RungeKuttaOptions(1.0, 0.0, 1)),
+            lambda: kernel_for(newton.newton_step, REAL, VECTOR, VECTOR, at, tangent, matrix),
+            lambda: kernel_for(newton.assemble, REAL, bodies, at, tangent, matrix),
             *(partial(self.function, name) for name in method.functions),
-            lambda: self._radius_of(state),
+            lambda: self.radius_of(state),
         ]
 
-    def signature(self, name: str) -> Any:
-        """numba's signature of a function that ``PROBLEM`` names."""
-        result, *arguments = PROBLEM[name][1]
-        return result(*(self.data_type if a is None else a for a in arguments))
+    def source(self, name: str) -> Callable[..., Any]:
+        """The function that ``PROBLEM`` names, as this bearing's family has it."""
+        own = self.motion.linearise if name == "linearise" else None
+        return own or PROBLEM[name][0]
 
-    def function(self, name: str) -> Any:
-        """A function that ``PROBLEM`` names, compiled for this bearing when first asked for."""
-        if name not in self._functions:
-            own = self.motion.linearise if name == "linearise" else None
-            self._functions[name] = compiled(own or PROBLEM[name][0], self.signature(name))
-        return self._functions[name]
-
-    def functions(self, integrator: Integrator) -> tuple[Any, ...]:
-        """The functions that an integrator takes, in its order."""
-        return tuple(self.function(name) for name in integrator.functions)
-
-    def function_types(self, integrator: Integrator) -> Any:
-        """numba's type of that tuple."""
-        return types.Tuple(tuple(KernelType(self.signature(name)) for name in integrator.functions))
+    def types_of(self, name: str) -> tuple[Any, ...]:
+        """numba's types of its result and its arguments; None: the data."""
+        return PROBLEM[name][1]
 
     def arguments(self, data: BearingData, law: tuple) -> tuple:
         """What the compiled functions take as their data."""
@@ -322,24 +302,6 @@ class BearingSystem:
         self.evaluate(t, y, yd, self.args[0], self.args[1], out, mode)
         return out
 
-    def advance(self, integrator: Integrator, state, options, t_end, times, ys, yds, first, log,
-                quads) -> tuple[int, int, int]:  # fmt: skip
-        """``integrator.advance``, compiled for this bearing when first called."""
-        function = self._advance_of(integrator, state, options)
-        return function(
-            self.functions(integrator), self.args, state, options, t_end, times, ys, yds, first,
-            log, quads,
-        )  # fmt: skip
-
-    def _advance_of(self, integrator: Integrator, state, options) -> Any:
-        if integrator.name not in self._advance:
-            signature = types.Tuple((_COUNT, _COUNT, _COUNT))(
-                self.function_types(integrator), self.data_type, numba.typeof(state),
-                numba.typeof(options), _REAL, _VECTOR, _MATRIX, _MATRIX, _COUNT, _MATRIX, _MATRIX,
-            )  # fmt: skip
-            self._advance[integrator.name] = self._compiled(integrator, "advance", signature)
-        return self._advance[integrator.name]
-
     def error_weights(self, length: float, *, implicit: bool = False) -> np.ndarray:
         """1/(allowed local error) of y for a position error of ``length`` [m]; 0: not tested.
 
@@ -348,40 +310,23 @@ class BearingSystem:
         own = self.motion.implicit_weights if implicit else None
         return (own or self.motion.error_weights)(self.data.model, self.layout, length)
 
+    @property
+    def size(self) -> int:
+        """So many unknowns."""
+        return self.layout.size
+
+    def work_weights(self, length: float) -> np.ndarray:
+        """1/(allowed local error) of the work of every power for a position error of ``length``."""
+        return work_weights(self.data.model, length)
+
+    def cheaper(self, step: float, least: float) -> str:
+        """The integrator that "auto" takes where explicit steps up to ``step`` [s] are stable;
+        ``least`` is ``solver.stable_step``."""
+        if self.data.model.inner_ring.stands:  # a held centre has no implicit equation
+            return "explicit"
+        return "bdf" if step < self.motion.implicit_share * least else "explicit"
+
     def corners(self, begin: float, end: float) -> np.ndarray:
         """Times in [begin, end) at which the drive's or a load's slope jumps, and y' with it."""
         b = self.data.model.bodies
         return corners((b.speed, b.load, b.axial), b.waves, begin, end)
-
-    def stable_step(self, t: float, y: np.ndarray, yd: np.ndarray) -> float:
-        """Largest step [s] that the explicit method bears at (t, y)."""
-        method = runge_kutta.EXPLICIT_METHOD
-        weight = self.error_weights(NUDGE)
-        state = method.new_state(
-            t, y, yd, weight=weight, h0=1.0, quad_weight=np.zeros(len(POWERS)), modes=self.modes
-        )
-        function = self._radius_of(state)
-        radius = function(self.functions(method), self.args, state, ITERATIONS, 1.0)
-        return runge_kutta.REACH / radius if radius > 0.0 else np.inf
-
-    def _radius_of(self, state) -> Any:
-        if self._radius is None:
-            method = runge_kutta.EXPLICIT_METHOD
-            signature = _REAL(
-                self.function_types(method), self.data_type, numba.typeof(state), _COUNT, _REAL
-            )
-            self._radius = self._compiled(method, "spectral_radius", signature)
-        return self._radius
-
-    def _compiled(self, integrator: Integrator, name: str, signature: Any) -> Any:
-        """A function of an integrator's module, compiled after those that it calls.
-
-        The integrator is plain Python that knows no compiler; so each of its helpers is replaced in
-        its module by the compiled one, which a caller then finds under its name.
-        """
-        module = integrator.advance.__globals__
-        function = integrator.advance if name == "advance" else module[name]
-        for helper in integrator.helpers:
-            if not hasattr(module[helper], "py_func"):
-                module[helper] = allocating_kernel(module[helper])
-        return compiled(getattr(function, "py_func", function), signature, OPTIONS)

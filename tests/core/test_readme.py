@@ -28,16 +28,19 @@ CASES = {
     "README.md": ("",),
     "examples/cases.md": ("N1013", "", "", "15x37x10", "", "N1013", "N1013", "N1013", "7010C-PI"),
     "examples/fits.md": ("",),
+    "examples/signals.md": ("N1013",),
     "meshes/README.md": ("N1013",),
     "flexcage/cages/README.md": ("15x37x10",),
     "flexcage/modes/README.md": ("N1013",),
 }
-# a static case, a study, a map, a spectrum
+# a static case, a study, a map, a spectrum, a machine
 NOT_CASES = {
     "examples/cases.md": 1,
     "examples/studies.md": 1,
     "examples/unknowns.md": 1,
     "examples/fits.md": 1,
+    "examples/machines.md": 1,
+    "examples/heat.md": 1,
 }
 
 
@@ -146,6 +149,13 @@ def test_cases_of_the_pages_load(text):
 def test_every_block_of_toml_is_looked_at():
     with_toml = {name_of(p) for p in PAGES if blocks(p.read_text("utf-8"), "toml")}
     assert with_toml == {*CASES, *NOT_CASES}
+
+
+def test_the_machine_of_the_page_is_solved():
+    (block,) = blocks(text_of("examples/machines.md"), "toml")
+    solution = flexcage.solve_machine(flexcage.load_machine(block))
+    assert [b.name for b in solution.bearings] == ["pair_left", "pair_right", "rear"]
+    assert sum(b.force[0] for b in solution.bearings) == pytest.approx(400.0, abs=1e-5)
 
 
 def test_the_study_of_the_page_loads(tmp_path):

@@ -20,7 +20,8 @@ TESTED = {
     "ex06_ball_bearing",
     "ex07_own_body",
     "ex08_rotor_bearing",
-    "ex09_signals",
+    "ex09_machine",
+    "ex10_signals",
 }
 
 
@@ -57,10 +58,17 @@ def test_static(capsys):
     assert "N/um axially" in capsys.readouterr().out
 
 
+def test_machines():
+    module = example("ex09_machine")
+    assert module.spindle() == pytest.approx(80.7, abs=0.1)
+    borne, by_hand = module.motor()  # the roller bearing's own moment lifts it by 0.1 %
+    assert borne == pytest.approx(by_hand, rel=2e-3) and by_hand > 1200.0
+
+
 def test_an_accelerometer_finds_the_spall(tmp_path):
     picture = tmp_path / "signals.png"
     short = {"solver.duration": "60 ms", "mesh.fineness": "coarse"}
-    line, bpfo = example("ex09_signals").main(str(picture), **short)
+    line, bpfo = example("ex10_signals").main(str(picture), **short)
     assert line == pytest.approx(bpfo, abs=1 / 0.048)  # a bin of 48 ms
     assert bpfo == pytest.approx(0.5 * 9 * 100 * (1 - 7.938 / 38.5), rel=0.02)
     assert picture.stat().st_size > 20_000

@@ -9,7 +9,7 @@ from simulate_cases import Interrupted
 
 from flexcage.bearings.cylindrical_roller.recording import RECORDING, overlaps
 from flexcage.core.errors import InputError, RunFailed
-from flexcage.integrate.integration import Integration
+from flexcage.integrate.integration import integration_of
 from flexcage.integrate.recorded import new_store
 from flexcage.system.start import find_start
 from flexcage.verification.runs import n1013
@@ -38,7 +38,7 @@ def integration(tmp_path):
     store = new_store(
         tmp_path / "r.zarr", bearing, RECORDING, duration=4e-3, output=case.output, attrs={}
     )
-    return Integration(bearing, RECORDING, start, store, solver=case.solver, output=case.output)
+    return integration_of(bearing, RECORDING, start, store, solver=case.solver, output=case.output)
 
 
 def kept(integration, until):

@@ -57,9 +57,9 @@ def test_a_run_looks_ahead_before_its_first_step():
     run.solver, run.bound = SolverOptions(method="explicit"), np.inf
     run.state = SimpleNamespace(real=np.zeros(2), count=np.zeros(len(COUNTS), int))
     run.integrator = SimpleNamespace(name="explicit", bounded=True, last=lambda state: (None, None))
-    free = SimpleNamespace(stands=1)
-    data = SimpleNamespace(model=SimpleNamespace(inner_ring=free))
-    run.bearing = SimpleNamespace(stable_step=lambda t, y, yd: 1e-15, data=data)
+    run.system = SimpleNamespace(
+        stable_step=lambda t, y, yd: 1e-15, cheaper=lambda step, least: "explicit"
+    )
     run.repeated = 0
     run._foresight = Foresight(run.solver.max_steps, 0.1)
     with pytest.raises(RunFailed, match=re.escape("1.0e+14 steps")):

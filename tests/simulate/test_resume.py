@@ -10,7 +10,7 @@ from simulate_cases import Interrupted, bent, n1013
 from flexcage.cli import main
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.core.locks import held, is_held
-from flexcage.integrate import integration, recorded
+from flexcage.integrate import recorded, recorder
 from flexcage.results.registry import VARIABLES
 from flexcage.results.store import RunStore
 from flexcage.run.folder import write_case
@@ -139,9 +139,9 @@ def test_a_run_that_lacks_what_is_recorded_now_is_not_resumed(tmp_path, monkeypa
     variables_of = recorded.variables_of
     older = [name for name in variables_of("cylindrical_roller") if name != "pocket_peak"]
     monkeypatch.setattr(recorded, "variables_of", lambda family: older)
-    arrays = integration.recorded
+    arrays = recorder.recorded
     monkeypatch.setattr(
-        integration, "recorded",
+        recorder, "recorded",
         lambda *a: {k: v for k, v in arrays(*a).items() if k != "pocket_peak"},
     )  # fmt: skip
     with pytest.raises(KeyboardInterrupt):

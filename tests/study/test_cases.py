@@ -14,8 +14,6 @@ from flexcage.case import load_case
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.core.progress import Silent
 from flexcage.results.figures.figure import CAGED, FLEXIBLE, LATER, STATISTIC
-from flexcage.results.figures.fits import FITS
-from flexcage.results.figures.life import LIFE
 from flexcage.results.figures.table import FIGURES, marked
 from flexcage.results.files import load, save
 from flexcage.simulate import load_run, simulate
@@ -289,7 +287,6 @@ def test_figures_that_a_study_may_name_are_those_of_a_run():
         k for k, f in FIGURES.items()
         if FIGURES.owners(k) in ((), ("cylindrical_roller",))
         and f.needs in ("", CAGED, FLEXIBLE) and k != "element_touches"  # a cage keeps them apart
-        and k not in FITS.figures and k not in LIFE.figures  # of cases with [fit], with [life]
     }  # fmt: skip
     assert keys | {"wall_stress"} == of_rollers - set(marked(LATER))
     assert all(row.shown == FIGURES[row.key].shown for row in run.summary)

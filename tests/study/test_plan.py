@@ -12,6 +12,7 @@ from flexcage.case import load_case
 from flexcage.core.errors import InputError
 from flexcage.core.wings import FAMILIES
 from flexcage.geometry.materials import MATERIALS
+from flexcage.results.figures.life import LIFE
 from flexcage.study import run
 from flexcage.study.axes import Grid, LatinHypercube, Points, Zip
 from flexcage.study.folder import Folder
@@ -50,6 +51,26 @@ def test_loads_of_rivets_are_outputs_of_ribbon_cages():
     with pytest.raises(InputError, match="set cage.type = 'ribbon'"):
         check_outputs(("rivet_stress",), **figures)
     assert beyond_summary(("rivet_stress", "cage_speed")) == ("rivet_stress",)
+
+
+@pytest.mark.parametrize(
+    ("name", "section"),
+    [("clearance_initial", "fit"), ("fit_approach", "fit"), (next(iter(LIFE.figures)), "life")],
+)
+def test_figures_of_a_section_are_outputs_of_cases_that_have_it(name, section):
+    figures = {"sizes": {}, "flexible": False, "family": "ball"}
+    check_outputs((name,), **figures, sections=[f"section [{section}]"])
+    with pytest.raises(InputError, match=rf"no case of the study has it; give \[{section}\]"):
+        check_outputs((name,), **figures)
+
+
+def test_a_study_of_cases_without_a_fit_has_no_clearance_by_fits():
+    """The plan says it before anything is computed."""
+    with pytest.raises(InputError, match=r"'clearance_initial' is of cases with \[fit\]"):
+        make_plan(short_study(outputs=("clearance_initial",)))
+    fitted = Grid("fit.shaft", ["k5"])
+    plan = make_plan(short_study(fitted, outputs=("clearance_initial",)))
+    assert len(plan.cases) == 1
 
 
 def test_repetitions_differ_in_their_start_alone():

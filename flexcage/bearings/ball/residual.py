@@ -13,6 +13,7 @@ from flexcage.contacts.evaluation import (
     ANGLE,
     APPROACH,
     DAMPED,
+    N_RACE,
     NORMAL,
     POCKET_LAW,
     POCKET_RUBS,
@@ -21,7 +22,6 @@ from flexcage.contacts.evaluation import (
     REPORT,
     ROLLED,
     RUBBED,
-    SLIDING,
     STORED,
 )
 from flexcage.contacts.groove import BallOnRace, groove_contact
@@ -162,7 +162,7 @@ def report_race(i, side, sums, rep):
     closed = 1 if sums[NORMAL] > 0.0 else 0
     rep.contact[i, side] = closed
     rep.approach[i, side] = sums[APPROACH]
-    for c in range(SLIDING + 1):
+    for c in range(N_RACE):
         rep.race[i, side, c] = sums[c]
     rep.energy[IN_CONTACTS] += sums[STORED]
     rep.power[RACE_DAMPING] += sums[DAMPED]

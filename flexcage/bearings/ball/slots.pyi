@@ -1,6 +1,7 @@
 from flexcage.bearings.ball.bending import BENDING as bending
 from flexcage.bearings.ball.figures import FIGURES as figures
 from flexcage.bearings.ball.inference import INFERENCE as inside
+from flexcage.bearings.ball.losses import ball_losses as losses
 from flexcage.bearings.ball.motion import MOTION as motion
 from flexcage.bearings.ball.recording import RECORDING as recording
 from flexcage.bearings.ball.rings import ball_rings as rings
@@ -14,6 +15,7 @@ __all__ = [
     "bending",
     "figures",
     "inside",
+    "losses",
     "motion",
     "recording",
     "rings",

@@ -24,6 +24,7 @@ FAMILY = Family(
     figures=lambda: slots.figures,
     rubbing=lambda: slots.rubbing,
     statics=lambda: slots.statics,
+    losses=lambda: slots.losses,
     motion=lambda: slots.motion,
     bending=lambda: slots.bending,
     recording=lambda: slots.recording,

@@ -1,6 +1,7 @@
 from flexcage.bearings.cylindrical_roller.bending import BENDING as bending
 from flexcage.bearings.cylindrical_roller.figures import FIGURES as figures
 from flexcage.bearings.cylindrical_roller.full_complement import INFERENCE as inside
+from flexcage.bearings.cylindrical_roller.losses import roller_losses as losses
 from flexcage.bearings.cylindrical_roller.motion import MOTION as motion
 from flexcage.bearings.cylindrical_roller.recording import RECORDING as recording
 from flexcage.bearings.cylindrical_roller.rings import roller_rings as rings
@@ -14,6 +15,7 @@ __all__ = [
     "bending",
     "figures",
     "inside",
+    "losses",
     "motion",
     "recording",
     "rings",

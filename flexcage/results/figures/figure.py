@@ -26,7 +26,12 @@ FATIGUE: Final = "fatigue"
 WEAR: Final = "wear"
 CAGED: Final = "a cage"
 FULL: Final = "full complement"
-Need = Literal["flexible cage", "riveted cage", "fatigue", "wear", "a cage", "full complement"]
+FITTED: Final = "section [fit]"
+QUOTED: Final = "section [life]"
+Need = Literal[
+    "flexible cage", "riveted cage", "fatigue", "wear", "a cage", "full complement",
+    "section [fit]", "section [life]",
+]  # fmt: skip
 NEEDS: frozenset[str] = frozenset(get_args(Need))
 
 #: What a figure is: may it be below zero, is it a mean or a peak over windows of the run (and so

@@ -24,7 +24,7 @@ def _interference(grip: Grip, mounting: Mounting) -> Found:
 
 # fmt: off
 #: Of cases with [fit].
-FITS = FigureTable[Mounting]("Clearance")
+FITS = FigureTable[Mounting]("Clearance", "section [fit]")
 for _key, _title, _meaning in (
     ("initial", "Radial clearance, before mounting", "of the class, or as the bearing has it"),
     ("inner_fit", "Clearance by the inner fit", "what the shaft's interference adds; < 0: takes"),

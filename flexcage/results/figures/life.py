@@ -29,7 +29,7 @@ def _known(value: float, note: str = "") -> Found | None:
 
 # fmt: off
 #: Of cases with [life].
-LIFE = FigureTable[Lives]("Rating life")
+LIFE = FigureTable[Lives]("Rating life", "section [life]")
 LIFE.add("life_kappa", "Viscosity ratio kappa", "", "of the oil's viscosity to ISO 281's nu_1",
          take=lambda lives: _oil(lives.here))
 LIFE.add("life_a1", "Reliability factor a1", "", "ISO 281",

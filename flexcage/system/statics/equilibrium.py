@@ -115,7 +115,7 @@ class Posture:
 def balance(problem: Problem) -> Posture:
     """Posture in equilibrium. Raises InputError if the load leaves none, RunFailed if none is
     found."""
-    still = _march(problem, _posture(problem, problem.held, None, 0.0), 0.0)
+    still = _march(problem, posture_at(problem, problem.held, None, 0.0), 0.0)
     if still.unbalanced > _CLOSE:
         raise _no_equilibrium(problem, still)
     if problem.elements.conservative:
@@ -125,7 +125,7 @@ def balance(problem: Problem) -> Posture:
         for k in range(parts):
             share = (k + 1) / parts
             with np.errstate(invalid="ignore", divide="ignore"):  # where the search goes astray
-                found = _march(problem, _posture(problem, found.ring, found, share), share)
+                found = _march(problem, posture_at(problem, found.ring, found, share), share)
             if found.unbalanced > _CLOSE:
                 break
         else:
@@ -161,7 +161,9 @@ def _yielding(bending: Bending, stiffness: np.ndarray) -> np.ndarray:
     return whole + np.eye(3 * count)
 
 
-def _posture(problem: Problem, ring: np.ndarray, near: Posture | None, share: float) -> Posture:
+def posture_at(problem: Problem, ring: np.ndarray, near: Posture | None, share: float) -> Posture:
+    """Posture with the ring displaced by u (5,), elements settled between the rings, sought from a
+    posture ``near``; ``share`` of what has no potential counts."""
     B = problem.at_azimuths
     v, own = B @ ring, None if near is None else near.own
     if problem.bending is None:
@@ -276,7 +278,7 @@ def _march(problem: Problem, posture: Posture, share: float) -> Posture:
         step[free] = -np.linalg.solve(matrix[np.ix_(free, free)], gap[free])
         length = min(1.0, scale / max(float(np.abs(step * problem.lever).max()), 1e-300))
         for _ in range(_FEW):
-            new = _posture(problem, posture.ring + length * step, posture, share)
+            new = posture_at(problem, posture.ring + length * step, posture, share)
             fine = new.unbalanced < (1.0 - _ENOUGH * length) * posture.unbalanced
             if share == 0.0 and new.unbalanced < np.inf:
                 promised = length * float(gap[free] @ step[free])

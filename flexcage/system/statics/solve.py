@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from flexcage.geometry.hertz import over_edge
 from flexcage.geometry.kinematics import epicyclic, passing_frequencies
 from flexcage.system.spec import Load
 from flexcage.system.statics.elements import ElementLoads, Elements, ElementsOf
-from flexcage.system.statics.equilibrium import Problem, balance, tangent
+from flexcage.system.statics.equilibrium import Posture, Problem, balance, tangent
 from flexcage.system.statics.options import StaticOptions
 from flexcage.system.statics.rings import BentRing, Rings, balance_with_rings
 from flexcage.system.statics.solution import StaticSolution
@@ -55,32 +56,45 @@ def solve_bearing(
         problem, posture, bent = balance_with_rings(problem, bearing, rings, find)
     else:
         posture = find(problem)
-    v, outer = posture.v, posture.outer
+    borne = np.where(problem.spring > 0.0, posture.force, problem.load)  # by the elements
+    ring = posture.ring + posture.outer
+    springs = problem.pull(ring) - problem.load
     stiffness = tangent(problem, posture)
+    return solution_at(
+        bearing, elements, posture, options,
+        load=problem.load, borne=borne, speed=speed, lubricant=lubricant,
+        reaction=np.where(problem.free, springs, posture.force - problem.load),
+        stiffness=stiffness if seat is None else on_seat(stiffness, seat),
+        held=load.held_in_words(axially=bool(problem.free[0]), tilt=_tilt(load, options)[0]),
+        rings=bent,
+    )  # fmt: skip
+
+
+def solution_at(
+    bearing: Bearing, elements: Elements, posture: Posture, options: StaticOptions, *,
+    load: np.ndarray, borne: np.ndarray, speed: float, lubricant: Lubricant | None,
+    **known: Any,
+) -> StaticSolution:  # fmt: skip
+    """The solution of a posture in equilibrium: ``load`` (5,) is what was asked, ``borne`` (5,)
+    what the elements bear; ``known`` are further values of the solution."""
+    v = posture.v
     loads = elements.loads(v, posture.own)
     elements.check(loads)
-    ring = posture.ring + outer
-    springs = problem.pull(ring) - problem.load
-    reaction = np.where(problem.free, springs, posture.force - problem.load)
-    borne = np.where(problem.spring > 0.0, posture.force, problem.load)  # by the elements
     own, nominal = _frequencies(bearing, loads, speed)
     return StaticSolution(
         title=f"{bearing.designation or 'bearing'}, {bearing.kind} with {len(v)} rolling elements",
         speed=speed,
-        load=problem.load,
-        displacement=ring,
-        outer=outer,
-        reaction=reaction,
-        stiffness=stiffness if seat is None else on_seat(stiffness, seat),
+        load=load,
+        displacement=posture.ring + posture.outer,
+        outer=posture.outer,
         elements=loads,
         film=_film(bearing, loads, speed, lubricant or Lubricant()),
         ratings=_ratings(bearing, borne, options, elements.reference_life(v, posture.own)),
         warnings=tuple(_warnings(elements, loads)),
         unbalanced=posture.unbalanced,
-        held=load.held_in_words(axially=bool(problem.free[0]), tilt=_tilt(load, options)[0]),
-        rings=bent,
         frequencies=own,
         nominal_frequencies=nominal,
+        **known,
     )
 
 

@@ -1,0 +1,142 @@
+"""The files of a machine's static solution."""
+
+from __future__ import annotations
+
+import logging
+from math import pi
+from pathlib import Path
+
+import numpy as np
+
+from flexcage.core.errors import EnvironmentLacks
+from flexcage.core.listing import PAGE
+from flexcage.core.writing import write_text
+from flexcage.machine.linear import amplitude
+from flexcage.machine.machine import Machine
+from flexcage.machine.solution import MachineSolution
+from flexcage.machine.spec import Disc
+from flexcage.static import write_static
+
+log = logging.getLogger(__name__)
+
+OURS = ("machine.toml", "machine.json")
+_FLAT = 0.15  # of its diameter: width of a disc that has none
+
+
+def write_machine(machine: Machine, solution: MachineSolution, folder: Path) -> list[Path]:
+    """Write machine.toml, machine.txt, machine.json, whirl.csv and pictures into a folder, and
+    for every bearing a folder of its own with its static solution; their paths.
+
+    A computer that cannot draw costs the pictures alone.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    write_text(folder / "machine.toml", machine.to_toml())
+    write_text(folder / "machine.txt", solution.table(PAGE) + "\n")
+    solution.to_json(folder / "machine.json")
+    written = [folder / name for name in ("machine.toml", "machine.txt", "machine.json")]
+    for seated, own in zip(machine.bearings, solution.bearings):
+        written += write_static(seated.case, own.solution, folder / own.name)
+    whirls = _whirls(machine, solution)
+    if whirls is not None:
+        write_text(folder / "whirl.csv", _as_csv(*whirls))
+        written.append(folder / "whirl.csv")
+    try:
+        written += _pictures(machine, solution, whirls, folder)
+    except EnvironmentLacks as exc:
+        log.warning("no pictures: %s", exc)
+    return written
+
+
+Whirls = tuple[np.ndarray, list[tuple[np.ndarray, list[str]]], np.ndarray]
+
+
+def _whirls(machine: Machine, solution: MachineSolution) -> Whirls | None:
+    """Speeds (s,), natural frequencies at each, and the largest amplitude (s,) under unbalance."""
+    lines, wanted = solution.linearised, machine.whirl
+    highest = wanted.highest or 1.5 * abs(machine.speed)
+    if not lines.has_mass or not highest:
+        return None
+    speeds = np.linspace(0.0, highest, wanted.points)
+    found = [lines.frequencies(float(w), wanted.modes) for w in speeds]
+    return speeds, found, amplitude(lines.response(speeds)).max(axis=1)
+
+
+def _as_csv(
+    speeds: np.ndarray, found: list[tuple[np.ndarray, list[str]]], amplitudes: np.ndarray
+) -> str:
+    count = max(len(f) for f, _ in found)
+    heads = [f"{what}_{k + 1}{unit}" for k in range(count)
+             for what, unit in (("frequency", "_Hz"), ("whirl", ""))]  # fmt: skip
+    lines = [",".join(["speed_rpm", *heads, "largest_orbit_um"])]
+    for w, (frequencies, ways), orbit in zip(speeds, found, amplitudes):
+        cells = [f"{w * 30.0 / pi:.6g}"]
+        for f, way in zip(frequencies, ways):
+            cells += [f"{f / (2.0 * pi):.8g}", way]
+        cells += [""] * (2 * count - 2 * len(ways)) + [f"{1e6 * orbit:.6g}"]
+        lines.append(",".join(cells))
+    return "\n".join(lines) + "\n"
+
+
+def _pictures(
+    machine: Machine, solution: MachineSolution, whirls: Whirls | None, folder: Path
+) -> list[Path]:
+    from flexcage.render.machine_pictures import whirl_picture
+
+    speed = f"{solution.speed * 30.0 / pi:.5g} rpm"
+    made = [draw_machine(machine, solution, folder / "machine.png")]
+    if whirls is not None:
+        note = f"bearings' stiffness at the machine's load and {speed}"
+        made.append(whirl_picture(*whirls, folder / "whirl.png", title=f"{machine.name}: whirl",
+                                  note=note, speed=solution.speed))  # fmt: skip
+    return made
+
+
+def draw_machine(machine: Machine, solution: MachineSolution, path: str | Path) -> Path:
+    """Picture of the shaft in its bearings: loads, displacement, bending moment, stress."""
+    from flexcage.render.machine_pictures import (
+        Drawn,
+        ShaftCurves,
+        ShaftDrawing,
+        machine_picture,
+    )
+
+    shaft, sections = machine.shaft, solution.sections
+    ends = np.concatenate([[0.0], np.cumsum([s.length for s in shaft.sections])])
+    outline = np.array([(a, b, s.diameter, s.bore)
+                        for a, b, s in zip(ends, ends[1:], shaft.sections)])  # fmt: skip
+    bearings = []
+    for seated, own in zip(machine.bearings, solution.bearings):
+        b, place = seated.case.bearing, seated.place
+        one_way = bool(getattr(b, "one_sided", False)) or sum(getattr(b, "carried", ())) == 1
+        faces = (1 if place.facing == "+x" else -1) if one_way else 0
+        bearings.append(Drawn(own.name, own.position, b.bore, b.outside_diameter, b.width, faces,
+                              place.axial_seat == "floating", own.force[:3]))  # fmt: skip
+    if not len(outline):
+        bore = min(b.bore for b in bearings)
+        outline = np.array([(0.0, shaft.whole_length, bore, 0.0)])
+    drawing = ShaftDrawing(
+        outline.reshape(-1, 4), bearings, _discs(shaft.discs, shaft.whole_length),
+        [(p.position, np.array(p.force)) for p in shaft.loads],
+    )  # fmt: skip
+    curves = ShaftCurves(
+        solution.position, solution.displacement[:, 1:3], sections.position,
+        sections.force[:, 3:], sections.stress,
+    )  # fmt: skip
+    small = 1e-6 * max(float(np.abs(b.force[:3]).max()) for b in solution.bearings)
+    note = f"{solution.speed * 30.0 / pi:.5g} rpm   ·   " + "   ·   ".join(
+        f"{b.name}: {b.radial:.4g} N radially, {axial if abs(axial) > small else 0.0:.4g} N along x"
+        for b in solution.bearings
+        for axial in (float(b.force[0]),)
+    )
+    return machine_picture(drawing, curves, path, title=machine.name, note=note)
+
+
+def _discs(discs: tuple[Disc, ...], length: float) -> np.ndarray:
+    """Place, diameter and width (k, 3) [m]; those of a disc by mass as its inertia has them."""
+    rows = []
+    for disc in discs:
+        mass, polar, _ = disc.inertia
+        diameter = disc.diameter or (2.0 * np.sqrt(2.0 * polar / mass) if mass and polar else 0.0)
+        diameter = diameter or 0.2 * length
+        rows.append((disc.position, diameter, disc.width or _FLAT * diameter))
+    return np.array(rows).reshape(-1, 3)

@@ -1,0 +1,140 @@
+"""The corridor of a machine's run: machine -> static solution -> bearings -> start -> solve.
+
+Every bearing gets a folder that is that of a run, with its own case, cage, record and pictures;
+beside them stands what happened to the shaft.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from flexcage.bearings import recording_of
+from flexcage.case import Case
+from flexcage.compiling import begin_compiling, build_bearing
+from flexcage.core.binding import expect, path_of
+from flexcage.core.errors import RunFailed
+from flexcage.core.locks import held
+from flexcage.core.output_folders import check_no_file
+from flexcage.core.progress import Silent
+from flexcage.core.timing import Stages
+from flexcage.integrate.machine import MachineIntegration
+from flexcage.machine.machine import Machine
+from flexcage.machine.motion import as_it_begins, case_in_motion, check_moves, starting_point
+from flexcage.machine.rotor import TurningShaft
+from flexcage.machine.solution import BearingResult
+from flexcage.machine.solve import solve_machine
+from flexcage.machine.writing import write_machine
+from flexcage.machine_run.record import ShaftRecord
+from flexcage.machine_run.run import MachineRun
+from flexcage.results.store import MemoryRunStore
+from flexcage.run import Run, warnings_at_start
+from flexcage.run.foreseen import report_before
+from flexcage.run.storing import run_store
+from flexcage.stages import made_cage
+from flexcage.system.begun import Start
+from flexcage.system.problem import BearingSystem
+from flexcage.system.shaft.problem import MachineSystem, begun, release, shaft_data
+from flexcage.system.start import find_start, with_push
+
+
+@dataclass(frozen=True)
+class _Ready:
+    """A bearing of the machine before the run begins."""
+
+    case: Case
+    bearing: BearingSystem
+    start: Start
+    run: Run
+    store: MemoryRunStore
+
+
+def simulate_machine(
+    machine: Machine, *, out: str | Path | None = None, stress: bool = True,
+    progress: Callable[..., Any] | None = None,
+) -> MachineRun:  # fmt: skip
+    """Simulate a machine from its static solution on; results are kept in memory, or in the folder
+    ``out`` as the run goes, a folder in it for every bearing.
+
+    Without ``stress``, a cage's is computed only when asked for, unless it may exceed the proof
+    stress. ``progress`` is a context like ``core.progress.Progress``. Raises InputError for a
+    machine that cannot run, RunFailed for a run that cannot go on, with what was computed kept.
+    """
+    expect(machine, Machine, "machine", "flexcage.load_machine reads one from a file")
+    check_moves(machine)
+    if out is None:
+        return _simulated(machine, None, stress, progress)
+    folder = path_of(out, "out")
+    check_no_file(folder)
+    with held(folder, inside=True):
+        return _simulated(machine, folder, stress, progress)
+
+
+def _simulated(
+    machine: Machine, folder: Path | None, stress: bool, progress: Callable[..., Any] | None
+) -> MachineRun:
+    stages = Stages(progress)
+    solution = stages("static", solve_machine, as_it_begins(machine))
+    if folder is not None:
+        write_machine(machine, solution, folder)
+    shaft = TurningShaft(machine, solution)
+    ready = [
+        _ready(machine, k, own, folder, stages, stress=stress)
+        for k, own in enumerate(solution.bearings)
+    ]
+    bearings = [each.bearing for each in ready]
+    for bearing in bearings:
+        release(bearing)
+    block = machine.output.block * machine.output.vibration_ratio
+    system = MachineSystem(bearings, shaft_data(bearings, shaft.rotor(), samples=block))
+    stages.named("kernels of the machine", system.prepare)
+    integration = MachineIntegration(
+        system, [recording_of(each.case.bearing) for each in ready],
+        [each.store for each in ready], begun(system, [e.start for e in ready], shaft.pose()),
+        solver=machine.solver, output=machine.output,
+    )  # fmt: skip
+    try:
+        stages("solve", integration.march, progress)
+    except (RunFailed, KeyboardInterrupt):
+        ShaftRecord.of(integration, shaft).write(folder)
+        raise
+    record = ShaftRecord.of(integration, shaft)
+    record.write(folder)
+    runs = {
+        own.name: each.run.finish(integration.effort, stress=stress)
+        for own, each in zip(solution.bearings, ready, strict=True)
+    }
+    return MachineRun(machine, solution, runs, record, folder, stages).finish(integration.effort)
+
+
+def _ready(
+    machine: Machine, k: int, own: BearingResult, folder: Path | None, stages: Stages, *,
+    stress: bool,
+) -> _Ready:  # fmt: skip
+    """Mesh, modes, kernels and start of one bearing, and the folder of its run begun."""
+    case = case_in_motion(machine, machine.bearings[k], own)
+    foreseen = report_before(case, stress=stress)
+    compiling = begin_compiling(case)
+    mesh, cage = made_cage(case, stages)
+    bearing = stages.named("kernels", build_bearing, case, mesh, cage, compiling)
+    start = stages("start", _started, case, bearing, own, stages.progress)
+    warned = (*foreseen, *warnings_at_start(case, mesh, cage, start))
+    into = folder / own.name if folder else None
+    store = run_store(case, bearing, (mesh, cage), into, warned=warned)
+    return _Ready(
+        case, bearing, start, Run(case, store, into, mesh, cage, start, Stages(None)), store
+    )
+
+
+def _started(
+    case: Case, bearing: BearingSystem, own: BearingResult, progress: Callable[..., Any] = Silent
+) -> Start:
+    """Where a bearing begins: at its static solution in the machine."""
+    with progress(1.0, f"start of {own.name}") as bar:
+        start = find_start(
+            bearing, limit_force=case.limits.assembly_force, statics=lambda: starting_point(own),
+            advance=bar.to,
+        )  # fmt: skip
+    return with_push(start, bearing.layout, case.start)

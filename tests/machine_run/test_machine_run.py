@@ -1,0 +1,162 @@
+"""Runs of machines: forces and places beside the static solution, books, folders, mistakes."""
+
+import json
+
+import numpy as np
+import pytest
+
+from flexcage import load_run
+from flexcage.cli import main
+from flexcage.core.errors import InputError
+from flexcage.machine import load_machine
+from flexcage.machine_run import load_machine_run, simulate_machine
+
+SPINDLE = """
+name = "pair"
+[drive]
+speed = "8000 rpm"
+[shaft]
+kind = "{kind}"
+[[shaft.sections]]
+length = "240 mm"
+diameter = "50 mm"
+bore = "20 mm"
+[[shaft.discs]]
+name = "tool"
+position = "5 mm"
+mass = "0.5 kg"
+unbalance = "{unbalance} g*mm"
+[[shaft.loads]]
+position = "0 mm"
+force = ["0 N", "200 N", "0 N"]
+[[bearings]]
+name = "front"
+preset = "7010C-PI"
+position = "60 mm"
+facing = "-x"
+axial_offset = "4 um"
+cage.model = "rigid"
+[[bearings]]
+name = "rear"
+preset = "7010C-PI"
+position = "180 mm"
+facing = "+x"
+axial_offset = "4 um"
+cage.model = "rigid"
+[solver]
+duration = "{duration} ms"
+[output]
+block = 50
+"""
+
+
+def spindle(kind="rigid", duration=4, unbalance=0):
+    return SPINDLE.format(kind=kind, duration=duration, unbalance=unbalance)
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("machine") / "pair"
+    return simulate_machine(load_machine(spindle()), out=folder, stress=False)
+
+
+def test_bearings_bear_what_the_static_solution_says(run):
+    """Radially within 2 %; the preload grows while balls find how they spin, as in a bearing's own
+    run, and both bearings have the same."""
+    front, rear = (run.summary.bearings[name] for name in ("front", "rear"))
+    for figures in (front, rear):
+        assert figures.radial == pytest.approx(figures.static_radial, rel=0.02)
+        assert abs(figures.axial) == pytest.approx(abs(figures.static_axial), rel=0.15)
+        assert figures.torque > 0.0
+    assert front.axial == pytest.approx(-rear.axial, rel=0.03)
+    assert front.axial < 0.0 < rear.axial
+
+
+def test_load_and_weight_are_borne_by_both(run):
+    """Means of forces along y over the last 2 ms, and moments about the front bearing."""
+    ds = run.record.settled(0.5)
+    force = ds["force"].mean("time")
+    front, rear = (force.sel(bearing=name) for name in ("front", "rear"))
+    sections = run.machine.shaft.sections[0]
+    mass = sections.area * sections.length * 7850.0 + 0.5
+    weight = (mass - 0.5) * 9.80665 * (0.12 - 0.06) + 0.5 * 9.80665 * (0.005 - 0.06)
+    along_y = float(front.sel(component="y") + rear.sel(component="y"))
+    assert along_y == pytest.approx(200.0 + mass * 9.80665, rel=0.01)
+    turned = float(rear.sel(component="y")) * 0.12
+    turned += float((front + rear).sel(component="about z"))
+    assert turned == pytest.approx(-200.0 * 0.06 + weight, abs=0.02 * 12.0)
+
+
+def test_books_close(run):
+    assert run.summary.missed < 1e-4
+    for name in ("front", "rear"):
+        assert run[name].summary["energy_audit"] == "passed"
+
+
+def test_every_bearing_is_a_run_in_a_folder_of_its_own(run):
+    rear = load_run(run.folder / "rear")
+    assert rear.case.name == "pair-rear"
+    np.testing.assert_array_equal(
+        rear.dataset["race_force"].values, run["rear"].dataset["race_force"].values
+    )
+    assert "moves its inner ring" in load_run(run.folder / "front").case.description
+    again = load_machine_run(run.folder)
+    assert again.summary.bearings["front"] == run.summary.bearings["front"]
+    stored = json.loads((run.folder / "machine_summary.json").read_text())
+    assert stored["bearings"]["rear"]["radial"] == run.summary.bearings["rear"].radial
+
+
+def test_the_shaft_is_drawn(run, tmp_path):
+    assert run.draw_shaft(tmp_path / "shaft.png").stat().st_size > 20_000
+
+
+@pytest.mark.slow
+def test_orbits_under_unbalance_are_those_of_the_linearised_machine():
+    """An elastic shaft, 20 g mm at its end: synchronous amplitudes at all places within 10 % (the
+    bearings' stiffness changes with the preload that balls find)."""
+    machine = load_machine(spindle("elastic", 46, 20))
+    run = simulate_machine(machine, stress=False)
+    solution = run.solution
+    speed = machine.speed
+    response = solution.linearised.response(np.array([speed]))[0]
+    time = run.shaft["time"].values
+    kept = time > time[-1] - 3.0 * 2.0 * np.pi / speed
+    turning = np.exp(-1j * speed * time[kept])
+    for place in ("front", "rear", "tool", "right end"):
+        at = run.shaft["displacement"].sel(place=place)
+        k = int(np.argmin(abs(solution.position - float(at["position"]))))
+        for axis, c in (("y", 1), ("z", 2)):
+            moved = at.sel(component=axis).values[kept]
+            found = 2.0 * abs(np.mean((moved - moved.mean()) * turning))
+            assert found == pytest.approx(abs(response[k, c]), rel=0.1, abs=5e-9), (place, axis)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"drive.speed": "0 rpm"}, "drive.speed is 0: a run needs a shaft that turns"),
+        (
+            {
+                "bearings.rear.axial_seat": "floating",
+                "bearings.rear.spring_force": "100 N",
+                "bearings.rear.axial_offset": "0 um",
+            },
+            "does not slide yet",
+        ),
+    ],
+)
+def test_what_cannot_run_is_said_in_a_sentence(change, said):
+    with pytest.raises(InputError, match=said):
+        simulate_machine(load_machine(spindle(), overrides=change))
+
+
+def test_the_command_refuses_to_go_on_with_a_machine(tmp_path, capsys):
+    file = tmp_path / "pair.toml"
+    file.write_text(spindle())
+    assert main(["run", str(file), "--resume", "-o", str(tmp_path / "out")]) == 2
+    assert "a machine's run is not gone on with" in capsys.readouterr().err
+
+
+def test_a_folder_that_is_no_machines_run(tmp_path):
+    with pytest.raises(InputError, match="is not the folder of a machine's run"):
+        load_machine_run(tmp_path)
