@@ -12,29 +12,29 @@ import numpy as np
 import flexcage
 
 RPM = (2000.0, 6000.0, 10000.0)
-ROSS = {"x": 1, "y": 2, "z": 0}  # rows of the stiffness (x, y, z, tilts) that are ROSS's x, y, z
 
 
-def coefficients(*, axial: str = "400 N", radial: str = "300 N") -> dict[str, np.ndarray]:
-    """kxx, kxy, kyx, kyy, kzz [N/m] of a 7010C at ``RPM``, in ROSS's axes and by its names."""
+def table(axial: str = "400 N", radial: str = "300 N") -> flexcage.study.StiffnessTable:
+    """Stiffness of a 7010C at ``RPM``; several loads of either kind make a grid."""
     case = flexcage.load_static(Path(__file__).with_name("c7010_static.toml"))
-    case = case.replace({"load.axial": axial, "load.radial": radial}, si=False)
-    found: dict[str, list[float]] = {name: [] for name in ("kxx", "kxy", "kyx", "kyy", "kzz")}
-    for rpm in RPM:
-        k = flexcage.solve_static(case.replace("drive.speed", rpm * pi / 30.0)).stiffness
-        for name, values in found.items():
-            values.append(k[ROSS[name[1]], ROSS[name[2]]])
-    return {name: np.array(values) for name, values in found.items()}
+    speeds = [rpm * pi / 30.0 for rpm in RPM]
+    return flexcage.study.stiffness_table(case, speeds=speeds, radial=[radial], axial=[axial])
+
+
+def coefficients(**loads: str) -> dict[str, np.ndarray]:
+    """kxx, kxy, kyx, kyy, kzz [N/m] of a 7010C at ``RPM``, in ROSS's axes and by its names."""
+    return table(**loads).ross_coefficients()
 
 
 def main() -> tuple[float, float]:
     """First frequency [Hz] of a stiff shaft on two bearings, by ROSS and as sqrt(2 k/m)/2 pi."""
     import ross
 
-    k, speeds = coefficients(), np.array(RPM) * pi / 30.0
+    found, speeds = table(), np.array(RPM) * pi / 30.0
+    k = found.ross_coefficients()
     stiff = ross.Material("stiff", rho=7810, E=211e14, G_s=81e14)  # bends by nothing: a closed form
     shaft = [ross.ShaftElement(L=0.05, idl=0.0, odl=0.1, material=stiff) for _ in range(10)]
-    ends = [ross.BearingElement(n=n, frequency=speeds, cxx=0.0, **k) for n in (0, 10)]
+    ends = [found.to_ross(n) for n in (0, 10)]
     rotor = ross.Rotor(shaft, bearing_elements=ends)
     softer = min(k["kxx"][1], k["kyy"][1])
     by_hand = np.sqrt(2.0 * softer / rotor.m) / (2.0 * pi)

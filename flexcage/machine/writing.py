@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import logging
-from math import pi
+from math import atan2, hypot, pi
 from pathlib import Path
 
 import numpy as np
 
+from flexcage.case import StaticCase
 from flexcage.core.errors import EnvironmentLacks
 from flexcage.core.listing import PAGE
 from flexcage.core.writing import write_text
@@ -20,6 +21,7 @@ from flexcage.static import write_static
 log = logging.getLogger(__name__)
 
 OURS = ("machine.toml", "machine.json")
+_NOTHING = 1e-9  # of the largest force: what counts as none
 _FLAT = 0.15  # of its diameter: width of a disc that has none
 
 
@@ -35,7 +37,8 @@ def write_machine(machine: Machine, solution: MachineSolution, folder: Path) -> 
     solution.to_json(folder / "machine.json")
     written = [folder / name for name in ("machine.toml", "machine.txt", "machine.json")]
     for seated, own in zip(machine.bearings, solution.bearings):
-        written += write_static(seated.case, own.solution, folder / own.name)
+        case = as_loaded(seated.case, own.solution.load)
+        written += write_static(case, own.solution, folder / own.name)
     whirls = _whirls(machine, solution)
     if whirls is not None:
         write_text(folder / "whirl.csv", _as_csv(*whirls))
@@ -45,6 +48,17 @@ def write_machine(machine: Machine, solution: MachineSolution, folder: Path) -> 
     except EnvironmentLacks as exc:
         log.warning("no pictures: %s", exc)
     return written
+
+
+def as_loaded(case: StaticCase, load: np.ndarray) -> StaticCase:
+    """A bearing's case under the load (5,) that it bears in the machine, in its own axes, so that
+    it can be solved alone."""
+    clean = np.where(np.abs(load) > _NOTHING * max(float(np.abs(load[:3]).max()), 1e-12), load, 0.0)
+    x, y, z, about_y, about_z = (float(v) for v in clean)
+    return case.replace({
+        "load.axial": x, "load.radial": hypot(y, z), "load.direction": atan2(z, y),
+        "load.moment_y": about_y, "load.moment_z": about_z, "load.tilt": "free",
+    })  # fmt: skip
 
 
 Whirls = tuple[np.ndarray, list[tuple[np.ndarray, list[str]]], np.ndarray]

@@ -1,3 +1,5 @@
+from flexcage.machine.tables import StiffnessTable as StiffnessTable
+from flexcage.machine.tables import stiffness_table as stiffness_table
 from flexcage.study.axes import Grid as Grid
 from flexcage.study.axes import LatinHypercube as LatinHypercube
 from flexcage.study.axes import Points as Points

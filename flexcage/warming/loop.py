@@ -9,7 +9,9 @@ answer, as a secant would, so that losses that fall steeply with warmth do not m
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import replace
+from typing import Any, cast
 
 import numpy as np
 
@@ -21,6 +23,7 @@ from flexcage.core.progress import Silent
 from flexcage.core.units import describe
 from flexcage.geometry.heat.network import ELEMENTS, INNER, OIL, OUTER, TITLES
 from flexcage.geometry.heat.spec import Heat
+from flexcage.run.foreseen import foreseen, reported_at_once
 from flexcage.static import solve_static
 from flexcage.warming.at_temperatures import Evaluated, evaluate, film_of, warmed
 from flexcage.warming.warmth import RUNAWAY, SETTLED, UNSETTLED, ZERO, Iteration, Warmth
@@ -52,7 +55,7 @@ def warm(case: StaticCase, *, progress: Any = None) -> Warmth:
     heat, search = case.heat, _Search(_first(case))
     done: list[Evaluated] = []
     verdict, sentence = UNSETTLED, ""
-    with (progress or Silent)(heat.iterations, "settling") as shown:
+    with _told_once(case, search), (progress or Silent)(heat.iterations, "settling") as shown:
         for k in range(heat.iterations):
             try:
                 done.append(_evaluated(case, search))
@@ -67,6 +70,14 @@ def warm(case: StaticCase, *, progress: Any = None) -> Warmth:
                 break
             search.go_on(done[-1].iteration)
     return _result(case, done, verdict, sentence)
+
+
+def _told_once(case: StaticCase, search: _Search) -> AbstractContextManager[None]:
+    """What is foreseen of runs is logged once, not at every turn."""
+    if case.heat.losses == "static":
+        return nullcontext()
+    first, _ = warmed(case, search.temperatures)
+    return reported_at_once((cast(Case, first),), stress=False)
 
 
 def _evaluated(case: StaticCase, search: _Search) -> Evaluated:
@@ -187,8 +198,13 @@ def _result(case: StaticCase, done: list[Evaluated], verdict: str, sentence: str
     """The value of iterations, with the case and its static solution at their end."""
     last = done[-1]
     final, notes = warmed(case, last.iteration.temperatures)
+    solution = solve_static(final)
+    if case.heat.losses == "run":
+        said = (warning.text for warning in foreseen(cast(Case, final), stress=False))
+        more = (text for text in said if text not in solution.warnings)
+        solution = replace(solution, warnings=(*solution.warnings, *more))
     return Warmth(
         name=case.name, verdict=verdict, sentence=sentence,
-        iterations=tuple(e.iteration for e in done), case=final, solution=solve_static(final),
+        iterations=tuple(e.iteration for e in done), case=final, solution=solution,
         network=last.network, notes=notes,
     )  # fmt: skip

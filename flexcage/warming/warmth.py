@@ -45,8 +45,9 @@ class Iteration:
 
     @property
     def imbalance(self) -> float:
-        """Heat that leaves less losses, over these."""
-        return (sum(self.out.values()) - self.loss) / self.loss if self.loss else 0.0
+        """Heat that leaves less losses, over these, each counted positive."""
+        moved = sum(map(abs, self.losses.values()))
+        return (sum(self.out.values()) - self.loss) / moved if moved else 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,7 +137,7 @@ def loss_lines(warmth: Warmth) -> list[list[str]]:
     """Rows of the losses by place at the end."""
     end, speed = warmth.last, abs(warmth.solution.speed)
     rows = [
-        [place, f"{loss:.4g}", f"{100.0 * loss / end.loss:.3g}"]
+        [place, f"{loss:.4g}", f"{100.0 * loss / end.loss:.3g}" if end.loss else "-"]
         for place, loss in end.losses.items()
     ]
     torque = f"torque {1e3 * end.power / speed:.4g} N mm at {speed * 30.0 / pi:.6g} rpm"

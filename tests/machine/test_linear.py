@@ -64,7 +64,10 @@ def test_a_stepped_rotor_whirls_as_that_of_ross():
 
 
 def test_a_stepped_rotor_whirls_as_that_of_ross_here():
-    pytest.importorskip("ross")
+    try:
+        import ross  # noqa: F401
+    except Exception as exc:  # beside a plotly that it does not know it fails otherwise
+        pytest.skip(f"ROSS is not here: {type(exc).__name__}")
     check_against(by_ross())
 
 

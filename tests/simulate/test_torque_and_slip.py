@@ -3,10 +3,12 @@ than its loaded rollers: what ``flexcage/results/README.md`` says of both."""
 
 from __future__ import annotations
 
-from math import exp, pi, sqrt
+from math import pi
 
+import friction_models
 import numpy as np
 import pytest
+from friction_models import Size
 
 from flexcage import load_case, simulate
 from flexcage.cli import main
@@ -44,15 +46,10 @@ def torques(run, begin=0.3):
     return {c: -1e3 * float(work.sel(channel=c)) / turned for c in ds["channel"].values}
 
 
-def skf(d, D, load, rolling, sliding, mu, geometry):
-    """Rolling and sliding moment [N mm] of SKF's model (Rolling bearings, The SKF model for
-    calculating the frictional moment), at SPEED, in oil: G_rr, G_sl, mu_EHL and K_z of the type."""
-    nu, mean = 1e6 * VISCOSITY / DENSITY, 0.5 * (d + D)
-    heating = 1.0 / (1.0 + 1.84e-9 * (SPEED * mean) ** 1.28 * nu**0.64)
-    starving = exp(-3e-8 * nu * SPEED * (d + D) * sqrt(geometry / (2.0 * (D - d))))
-    mixed = exp(-2.6e-8 * (SPEED * nu) ** 1.4 * mean)
-    rubbing = mixed * 0.12 + (1.0 - mixed) * mu
-    return heating * starving * rolling * (nu * SPEED) ** 0.6, rubbing * sliding
+def skf(size, rolling, sliding, *, kz, smooth):
+    """Rolling and sliding moment [N mm] of SKF's model at SPEED, in the default oil."""
+    nu = 1e6 * VISCOSITY / DENSITY
+    return friction_models.skf(size, rolling, sliding, n=SPEED, nu=nu, kz=kz, smooth=smooth)
 
 
 def elements(run):
@@ -79,8 +76,9 @@ def test_torque_of_an_n208(made):
         expected += 2e3 * u * force.sum(axis=1).mean() / (SPEED * RPM)
     assert counted["rolling_resistance"] == pytest.approx(expected, rel=0.02)
     rolling, sliding = skf(
-        40, 80, 3000.0, 1.09e-6 * 60.0**2.41 * 3000.0**0.31, 0.0015 * 60.0 * 3000.0, 0.02, 5.1
-    )
+        Size(40.0, 80.0), 1.09e-6 * 60.0**2.41 * 3000.0**0.31, 0.0015 * 60.0 * 3000.0, kz=5.1,
+        smooth=0.02,
+    )  # fmt: skip
     assert (rolling, sliding) == (pytest.approx(124.0, rel=0.01), pytest.approx(6.2, rel=0.02))
     assert counted["rolling_resistance"] == pytest.approx(0.94 * rolling, rel=0.04)
     assert -counted["drive"] == pytest.approx(0.95 * (rolling + sliding), rel=0.04)
@@ -120,8 +118,8 @@ def test_torque_of_a_6206(deep_groove):
         hysteresis += 1e3 * (lost.sum(axis=1) * u / (0.5 * 9.525e-3)).mean() / (SPEED * RPM)
     assert counted["rolling_resistance"] == pytest.approx(expected, rel=0.03)
     rolling, sliding = skf(
-        30, 62, 1500.0, 3.9e-7 * 46.0**1.96 * 1500.0**0.54,
-        3.23e-3 * 46.0**-0.26 * 1500.0 ** (5.0 / 3.0), 0.05, 3.1,
+        Size(30.0, 62.0), 3.9e-7 * 46.0**1.96 * 1500.0**0.54,
+        3.23e-3 * 46.0**-0.26 * 1500.0 ** (5.0 / 3.0), kz=3.1, smooth=0.05,
     )  # fmt: skip
     assert (rolling, sliding) == (pytest.approx(18.5, rel=0.01), pytest.approx(12.8, rel=0.01))
     assert counted["rolling_resistance"] == pytest.approx(0.49 * rolling, rel=0.05)

@@ -156,6 +156,30 @@ def test_a_clearance_that_warmth_closes_is_a_result():
     assert 0.0 < found.last.clearance < 1e-6
 
 
+def test_a_cooled_shaft_counts_what_flows_both_ways():
+    """60 W out of the shaft, more than is lost: heat comes in from the housing's side."""
+    found = warm(balls(heat__shaft_heat="-60 W"))
+    assert found.settled and found.temperatures["inner"] < found.temperatures["outer"]
+    assert found.last.losses["shaft heat"] == -60.0
+    assert sum(found.last.out.values()) == pytest.approx(found.last.loss, abs=1.3)
+
+
+def test_losses_of_runs_settle_as_the_static_ones(caplog):
+    """Short runs of the same case without a cage, whose warnings are said once."""
+    values = {"heat.losses": "run", "solver.duration": "2 ms", "heat.tolerance": "2 K"}
+    with caplog.at_level("WARNING"):
+        found = warm(load_case(BALLS, overrides=values))
+    static = warm(balls())
+    assert found.settled
+    assert found.temperatures["inner"] == pytest.approx(static.temperatures["inner"], abs=3.0)
+    assert found.last.losses["inner race"] == pytest.approx(
+        static.last.losses["inner race"], rel=0.1
+    )
+    short = [text for text in caplog.messages if "The run is short" in text]
+    assert len(short) == 1 and any("The run is short" in w for w in found.solution.warnings)
+    assert not any("pockets and lands are left out" in note for note in found.notes)
+
+
 def test_it_says_when_it_has_not_settled():
     found = warm(balls(heat__iterations=2, heat__tolerance="0.001 K"))
     assert found.verdict == "not settled" and "Not settled after 2 iterations" in found.sentence

@@ -12,7 +12,7 @@ LOSSES = ("static", "run")  # where losses are from
 
 
 def _conductance(doc: str, by: str) -> Any:
-    return quantity("W/K", None, doc=f"{doc} (default: {by})", minimum=0.0)
+    return quantity("W/K", None, doc=f"conductance {doc} (default: {by})", minimum=0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,10 +40,10 @@ class Heat:
     )  # fmt: skip
     ambient: float = quantity("degC", 293.15, doc="temperature around shaft and housing", above=0.0)
     shaft_ambient: float | None = _conductance(
-        "conductance from the shaft to what is around", "ISO 15312's of its seat"
+        "from the shaft to what is around", "ISO 15312's of its seat"
     )
     housing_ambient: float | None = _conductance(
-        "conductance from the housing to what is around", "ISO 15312's of its seat"
+        "from the housing to what is around", "ISO 15312's of its seat"
     )
     inner_shaft: float | None = _conductance("of the inner ring's seat", "its area and seat_joint")
     outer_housing: float | None = _conductance(
