@@ -55,14 +55,16 @@ _FOUR_DIGITS = re.compile(r"(3[0238]|5[23])\d\d[\s_/.-].*")
 
 #: What a bearing's surroundings have, by pattern of a key that people look for: what there is.
 SURROUNDINGS: Mapping[str, str] = MappingProxyType({
-    r"shafts?|rotors?|spindle": "flexcage has one bearing, and no shaft that bends: drive.kind and "
-    "drive.shaft_stiffness twist one, load.axial_stiffness and load.tilt_stiffness hold the ring, "
+    r"shafts?|rotors?|spindle": "a case has one bearing, and no shaft that bends: a shaft in "
+    "several bearings is a machine, [shaft] and [[bearings]]; of one bearing's, drive.kind and "
+    "drive.shaft_stiffness twist it, load.axial_stiffness and load.tilt_stiffness hold the ring, "
     "load.shaft_mass moves with it",
     r"housings?": "a housing is [mount]",
-    r"bearings|pairs?|duplex|arrangement|rows?|sets?": "flexcage has one single-row bearing a "
-    "case, [bearing], no pairs or sets; give one its share of the load in [load]",
-    r"pre.?load.*|springs?": "flexcage has no preload between bearings: give its force as "
-    "load.axial, or a negative bearing.radial_clearance of deep groove balls",
+    r"bearings|pairs?|duplex|arrangement|rows?|sets?": "a case has one single-row bearing, "
+    "[bearing]; pairs, sets and bearings of one shaft are a machine, [shaft] and [[bearings]]",
+    r"pre.?load.*|springs?": "a preload between bearings is that of a machine, in its "
+    "[[bearings]]; in the case of one give its force as load.axial, or a negative "
+    "bearing.radial_clearance of deep groove balls",
     r"(.*_)?temperatures?(_.*)?|heat.*|thermal.*|cooling": "flexcage computes no heat: give "
     "lubricant.viscosity at the temperature of work, temperatures of rings, shaft and housing in "
     "[fit] for the clearance, and cage.temperature for the cage's modulus",
@@ -83,7 +85,8 @@ def kind_of(designation: str) -> str:
         how = f" {_SETS[pair[2]]}" if pair[2] in _SETS else ""
         return (
             f"is a set of bearings{how} ({pair[2]}); flexcage has single ones: take {pair[1]}, "
-            "with its share of the load and the preload in load.axial"
+            "each in its place of a machine's [[bearings]], or one with its share of the load and "
+            "the preload in load.axial"
         )
     two_rows = _FOUR_DIGITS.fullmatch(designation.strip())
     for pattern, kind in _DESIGNATIONS.items():

@@ -28,13 +28,13 @@ class MachineSolution(MachineState):
 
     __str__ = table
 
-    def __repr__(self) -> str:
-        borne = ", ".join(f"{b.name} {b.radial:.4g} N" for b in self.bearings)
-        return f"MachineSolution({self.name}: radially {borne})"
-
     def _repr_html_(self) -> str:
         """For notebooks."""
         return html_of(self)
+
+    def __repr__(self) -> str:
+        borne = ", ".join(f"{b.name} {b.radial:.4g} N" for b in self.bearings)
+        return f"MachineSolution({self.name}: radially {borne})"
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values; what is not a number or infinite is None."""

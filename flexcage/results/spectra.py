@@ -17,6 +17,7 @@ import numpy as np
 from flexcage.core.errors import InputError
 from flexcage.results import metrics
 from flexcage.results.evenly import FEWEST, grid_of, series
+from flexcage.results.figures.figure import CAGE_SPEED
 from flexcage.results.frequencies import bearing_frequencies as bearing_frequencies
 from flexcage.results.frequencies import own_frequencies as own_frequencies
 from flexcage.results.frequencies import run_frequencies
@@ -92,7 +93,7 @@ def _outer_envelope(ds: xarray.Dataset) -> xarray.DataArray | None:
 SIGNALS: Mapping[str, Signal] = MappingProxyType(
     {
         "cage_centre": Signal("Cage centre, from the outer ring's", _cage_centre),
-        "cage_speed": Signal("Cage speed", _cage_speed),
+        "cage_speed": Signal(CAGE_SPEED, _cage_speed),
         "pocket_forces": Signal("Sum of the pocket forces", _pocket_forces),
         "orbital_speed": Signal("Mean orbital speed of the elements", _orbital_speed),
         "neighbour_forces": Signal("Sum of the forces between neighbours", _neighbour_forces),

@@ -5,6 +5,8 @@ from flexcage.study.axes import LatinHypercube as LatinHypercube
 from flexcage.study.axes import Points as Points
 from flexcage.study.axes import Sobol as Sobol
 from flexcage.study.axes import Zip as Zip
+from flexcage.study.dataset.build import build_dataset as build_dataset
+from flexcage.study.dataset.check import check_dataset as check_dataset
 from flexcage.study.maps import Map as Map
 from flexcage.study.maps import MapResults as MapResults
 from flexcage.study.maps import load_map as load_map

@@ -190,8 +190,8 @@ def test_a_class_without_cases_is_one_sentence(tmp_path):
 
 
 def test_a_severity_without_recordings_is_one_sentence(copy):
-    with pytest.raises(InputError, match="severity 'above 3 mm' has no recording"):
-        write_index(DatasetFolder(copy), Settings(edges=(0.6e-3, 3e-3)))
+    with pytest.raises(InputError, match="severity 'up to 0.2 mm' has no recording"):
+        write_index(DatasetFolder(copy), Settings(edges=(0.2e-3, 0.6e-3)))
 
 
 def test_faults_of_cases():

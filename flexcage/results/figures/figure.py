@@ -55,6 +55,9 @@ Mark = Literal[
     "convergence",
 ]  # fmt: skip
 
+#: Title of a figure that pictures of spectra have as well, which no table of figures may import.
+CAGE_SPEED: Final = "Cage speed"
+
 #: Words of titles that depend on the bearing or its cage, and what stands for them in a list.
 WORDS = {"Element": "Element", "element": "element", "Faces": "Pocket faces",
          "place": "a corner or edge", "walls": "pocket walls"}  # fmt: skip

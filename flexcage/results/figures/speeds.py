@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import isfinite
 
 from flexcage.results.bootstrap import FEWEST
-from flexcage.results.figures.figure import Figure, FigureTable, Found
+from flexcage.results.figures.figure import CAGE_SPEED, Figure, FigureTable, Found
 from flexcage.results.figures.part import SettledRun
 from flexcage.results.statistics import Record
 
@@ -80,7 +80,7 @@ def _slip(part: SettledRun) -> Found:
 SPEEDS = FigureTable[SettledRun]("Speeds")
 SPEEDS.add("inner_speed", "Inner ring speed", "rpm", "mean", "signed",
            take=lambda part: part.inner_speed)
-SPEEDS.add("cage_speed", "Cage speed", "rpm", "mean over whole turns of the cage",
+SPEEDS.add("cage_speed", CAGE_SPEED, "rpm", "mean over whole turns of the cage",
            "a cage", "signed", "statistic", "brief", "large", "settling", "convergence",
            take=lambda part: _speed("cage revolutions", part))
 SPEEDS.add("orbital_speed", "{Element}s' orbital speed", "rpm",
