@@ -45,7 +45,7 @@ def test_a_near_name_gets_a_hint(text, words):
     ("text", "words"),
     [
         (BEARING + "[shaft]\nlength = 1", "no shaft that bends"),
-        (BEARING + "[[bearings]]\na = 1", "one single-row bearing a case"),
+        (BEARING + "[[bearings]]\na = 1", "is a machine, for it has [[bearings]]"),
         ('temperature = "70 degC"\n' + BEARING, "computes no heat"),
         (BEARING + '[load]\npreload = "100 N"', "no preload between bearings"),
         (BEARING + '[lubricant]\ntemperature = "70 degC"', "computes no heat"),
