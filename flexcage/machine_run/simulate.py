@@ -75,13 +75,13 @@ def simulate_machine(
 def _simulated(
     machine: Machine, folder: Path | None, stress: bool, progress: Callable[..., Any] | None
 ) -> MachineRun:
-    stages = Stages(progress)
-    solution = stages("static", solve_machine, as_it_begins(machine))
+    clock = Stages(progress)
+    solution = clock("static", solve_machine, as_it_begins(machine))
     if folder is not None:
         write_machine(machine, solution, folder)
     shaft = TurningShaft(machine, solution)
     ready = [
-        _ready(machine, k, own, folder, stages, stress=stress)
+        _ready(machine, k, own, folder, clock, stress=stress)
         for k, own in enumerate(solution.bearings)
     ]
     bearings = [each.bearing for each in ready]
@@ -89,14 +89,14 @@ def _simulated(
         release(bearing)
     block = machine.output.block * machine.output.vibration_ratio
     system = MachineSystem(bearings, shaft_data(bearings, shaft.rotor(), samples=block))
-    stages.named("kernels of the machine", system.prepare)
+    clock.named("kernels of the machine", system.prepare)
     integration = MachineIntegration(
         system, [recording_of(each.case.bearing) for each in ready],
         [each.store for each in ready], begun(system, [e.start for e in ready], shaft.pose()),
         solver=machine.solver, output=machine.output,
     )  # fmt: skip
     try:
-        stages("solve", integration.march, progress)
+        clock("solve", integration.march, progress)
     except (RunFailed, KeyboardInterrupt):
         ShaftRecord.of(integration, shaft).write(folder)
         raise
@@ -106,20 +106,20 @@ def _simulated(
         own.name: each.run.finish(integration.effort, stress=stress)
         for own, each in zip(solution.bearings, ready, strict=True)
     }
-    return MachineRun(machine, solution, runs, record, folder, stages).finish(integration.effort)
+    return MachineRun(machine, solution, runs, record, folder, clock).finish(integration.effort)
 
 
 def _ready(
-    machine: Machine, k: int, own: BearingResult, folder: Path | None, stages: Stages, *,
+    machine: Machine, k: int, own: BearingResult, folder: Path | None, clock: Stages, *,
     stress: bool,
 ) -> _Ready:  # fmt: skip
     """Mesh, modes, kernels and start of one bearing, and the folder of its run begun."""
     case = case_in_motion(machine, machine.bearings[k], own)
     foreseen = report_before(case, stress=stress)
     compiling = begin_compiling(case)
-    mesh, cage = made_cage(case, stages)
-    bearing = stages.named("kernels", build_bearing, case, mesh, cage, compiling)
-    start = stages("start", _started, case, bearing, own, stages.progress)
+    mesh, cage = made_cage(case, clock)
+    bearing = clock.named("kernels", build_bearing, case, mesh, cage, compiling)
+    start = clock("start", _started, case, bearing, own, clock.progress)
     warned = (*foreseen, *warnings_at_start(case, mesh, cage, start))
     into = folder / own.name if folder else None
     store = run_store(case, bearing, (mesh, cage), into, warned=warned)

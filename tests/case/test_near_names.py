@@ -45,11 +45,8 @@ def test_a_near_name_gets_a_hint(text, words):
     ("text", "words"),
     [
         (BEARING + "[shaft]\nlength = 1", "no shaft that bends"),
-        (
-            BEARING + "[[bearings]]\na = 1",
-            "is a machine, for it has [[bearings]], not the case of one",
-        ),
         (BEARING + 'pair = "DB"', "pairs, sets and bearings of one shaft are a machine"),
+        (BEARING + "[[bearings]]\na = 1", "is a machine, for it has [[bearings]]"),
         ('temperature = "70 degC"\n' + BEARING, "computes no heat"),
         (BEARING + '[load]\npreload = "100 N"', "a preload between bearings is that of a machine"),
         (BEARING + '[lubricant]\ntemperature = "70 degC"', "computes no heat"),
