@@ -57,3 +57,20 @@ def find_without_oil(case: StaticSections) -> Iterator[Finding]:
             "The bearing stands still at the start (drive.speed), so that nothing warms it; give "
             "the speed at which temperatures are asked for.",
         )
+    yield from _find_without_expansion(case)
+
+
+def _find_without_expansion(case: StaticSections) -> Iterator[Finding]:
+    """Bodies whose growth with warmth is not known."""
+    bearing, fit = case.bearing, case.fit
+    bodies = {"bearing.material": bearing.material, "fit.shaft_material": fit.shaft_material,
+              "fit.housing_material": fit.housing_material}  # fmt: skip
+    if bearing.element_material is not None:
+        bodies["bearing.element_material"] = bearing.element_material
+    for where, material in bodies.items():
+        if material.expansion is None:
+            yield (
+                f"{where}.expansion",
+                f"Temperatures change the clearance, but no thermal expansion of {material.name} "
+                f'is known; give {where}.expansion, such as "12e-6 1/K" of steel.',
+            )

@@ -138,6 +138,10 @@ _SPELLINGS: tuple[tuple[re.Pattern, Any], ...] = (
     (re.compile(r"\b([A-Za-zµ]+)(-?\d+)(?![\w.])"), r"\1^\2"),  # kg/m3, min-1
     (re.compile(r"\b[rR]\.?[pP]\.?[mM]\b\.?"), "rpm"),
     (re.compile(r"\b(m?)Pas\b"), r"\1Pa*s"),  # pint takes it for the plural of Pa
+    # K belongs below the stroke: nobody means kelvin times W/m^2, nor millikelvin
+    (re.compile(r"\b(k?W)/m[ *]*K\b"), r"\1/(m*K)"),
+    (re.compile(r"\b(k?W)/m\^?2[ *]*K\b"), r"\1/(m^2*K)"),
+    (re.compile(r"\b(k?J)/kg[ *]*K\b"), r"\1/(kg*K)"),
     (re.compile(r"^/"), "1/"),
     (re.compile("℃"), "°C"),
     (re.compile("℉"), "°F"),

@@ -31,11 +31,13 @@ _PARTS = (1, 3, 9)  # in which speed's effects come in
 
 @dataclass(frozen=True, eq=False)
 class Together:
-    """A shaft under forces ``load`` (5 n,) in its bearings."""
+    """A shaft under forces ``load`` (5 n,) in its bearings; ``seats`` (P, P) is the stiffness of
+    all seats over the coordinates p of all outer rings."""
 
     shaft: ShaftModel
     load: np.ndarray
     bearings: Sequence[Seated]
+    seats: np.ndarray
 
     @cached_property
     def size(self) -> float:
@@ -107,9 +109,12 @@ def standing(m: Together, z: np.ndarray, near: Standing | None, share: float) ->
         postures.append(found)
         settled &= bool(np.isfinite(found.unbalanced))
         gap += m.shares[k].T @ found.force
-        own = slice(m.starts[k], m.starts[k + 1])
-        gap[own] += b.outer.stiffness @ p + b.outer.push
-        energy += found.energy + float(p @ (0.5 * b.outer.stiffness @ p + b.outer.push))
+        gap[m.starts[k] : m.starts[k + 1]] += b.outer.push
+        energy += found.energy + float(p @ b.outer.push)
+    p = z[m.starts[0] :]
+    gap[m.starts[0] :] += m.seats @ p
+    noise[m.starts[0] :] = np.abs(m.seats) @ np.abs(p)
+    energy += 0.5 * float(p @ m.seats @ p)
     allowed = _CLOSE * m.size * m.lever + _ROUNDING * noise
     worst = float(np.abs(gap / allowed).max()) if settled else np.inf
     return Standing(z, postures, gap, worst, float(np.abs(gap / m.lever).max()) / m.size, energy)
@@ -119,14 +124,14 @@ def tangent_of(m: Together, now: Standing, soft: bool = False) -> np.ndarray:
     """Exact slopes of all gaps over the unknowns; ``soft`` springs hold what touches nothing."""
     whole = np.zeros((m.starts[-1], m.starts[-1]))
     whole[: m.starts[0], : m.starts[0]] = m.linear
+    whole[m.starts[0] :, m.starts[0] :] = m.seats
     for k, (b, posture) in enumerate(zip(m.bearings, now.postures)):
         slope = b.tangent(posture)
         if soft:
             slope = slope + np.diag(b.problem.soft * b.problem.lever**2)
         whole += m.shares[k].T @ slope @ m.shares[k]
-        own = slice(m.starts[k], m.starts[k + 1])
-        whole[own, own] += b.outer.stiffness
         if soft:
+            own = slice(m.starts[k], m.starts[k + 1])
             whole[own, own] += b.problem.soft * np.eye(own.stop - own.start)
     return whole
 

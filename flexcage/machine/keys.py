@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 
 from flexcage.case.keys import Group, Key, of_spec
-from flexcage.machine.spec import BearingPlace, Gravity, Shaft, Whirl
+from flexcage.machine.spec import BearingPlace, Gravity, Housing, Shaft, Whirl
 
 SECTION = "machine"
 _SECTIONS = (
@@ -21,6 +21,7 @@ def groups_of_machines() -> list[Group]:
     found = [*of_spec(SECTION, "shaft", "[shaft]", Shaft, None)]
     found += of_spec(SECTION, "", "[[bearings]]", BearingPlace, None)
     found += of_spec(SECTION, "gravity", "[gravity]", Gravity, Gravity())
+    found += of_spec(SECTION, "housing", "[housing]", Housing, Housing())
     found += of_spec(SECTION, "whirl", "[whirl]", Whirl, Whirl())
     found = [dataclasses.replace(g, title=f"{g.title} of a machine") for g in found]
     return [*found, Group(SECTION, "Further sections of a machine", _SECTIONS)]

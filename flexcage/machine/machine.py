@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from flexcage.case.catalogue import find
-from flexcage.case.files import absolute
+from flexcage.case.files import absolute, with_files
 from flexcage.case.new import new_case
 from flexcage.case.presets import NAMED
 from flexcage.case.read import is_machine, read_machine
@@ -26,7 +26,7 @@ from flexcage.core.spec import option
 from flexcage.core.toml import read_toml
 from flexcage.machine.checks import check_machine
 from flexcage.machine.seated import SeatedBearing
-from flexcage.machine.spec import BearingPlace, Gravity, Shaft, Whirl
+from flexcage.machine.spec import BearingPlace, Gravity, Housing, Shaft, Whirl
 from flexcage.results.options import OutputOptions
 from flexcage.solve.options import SolverOptions
 from flexcage.system.spec import Drive, Mount
@@ -45,7 +45,7 @@ _ELSEWHERE = {
     r"sections?": "sections are [[shaft.sections]]",
     r"bearing": "a machine's bearings are a list, [[bearings]]",
     r"speed": "it is drive.speed",
-    r"housings?|mount": "a housing stands with its bearing, as [bearings.mount]",
+    r"housings|mount": "a housing of one bearing is [bearings.mount], one of several [housing]",
     r"fits?|contacts|lubricant|static|life": "it stands with a bearing, as [bearings.NAME_OF_IT]",
 }
 
@@ -63,12 +63,13 @@ class Machine:
     gravity: Gravity = option(Gravity(), doc="gravity on shaft and discs")
     shaft: Shaft = option(doc="the shaft, what it carries, what loads it")
     bearings: tuple[SeatedBearing, ...] = option(doc="the bearings, one table each")
+    housing: Housing = option(Housing(), doc="one body with the seats of several bearings")
     whirl: Whirl = option(Whirl(), doc="speeds of the linearised machine")
     solver: SolverOptions = option(SolverOptions(), doc="the integrator of a run")
     output: OutputOptions = option(OutputOptions(), doc="what is kept of a run")
 
     def __post_init__(self) -> None:
-        for name in ("drive", "gravity", "shaft", "whirl", "solver", "output"):
+        for name in ("drive", "gravity", "shaft", "housing", "whirl", "solver", "output"):
             check_spec(getattr(self, name), name)
         for bearing in self.bearings:
             check_spec(bearing.place, f"bearings.{bearing.place.name}")
@@ -84,7 +85,8 @@ class Machine:
         cls, table: Mapping[str, Any], *, folder: Path | None = None, si: bool = False
     ) -> Machine:
         """Machine of nested tables; ``folder`` is where relative paths start."""
-        binder = Binder(named=NAMED, si=si)
+        binder, paths = Binder(named=NAMED, si=si), ("housing.body", "housing.body_nodes")
+        table = with_files(dict(table), folder or Path.cwd(), paths)
         known = {f.name: f for f in dataclasses.fields(cls)}
         for key in table:
             if key not in known:
@@ -102,7 +104,7 @@ class Machine:
             name: binder.bind(kind, table[name], name, base=base)
             for name, kind, base in (
                 ("drive", Drive, Drive(speed=0.0)), ("gravity", Gravity, None),
-                ("shaft", Shaft, None), ("whirl", Whirl, None),
+                ("shaft", Shaft, None), ("whirl", Whirl, None), ("housing", Housing, None),
                 ("solver", SolverOptions, None), ("output", OutputOptions, None),
             )
             if name in table
@@ -123,7 +125,8 @@ class Machine:
     def to_table(self) -> dict[str, Any]:
         """Nested tables of texts with units that read back to an equal machine."""
         table: dict[str, Any] = {"name": self.name, "description": self.description}
-        for name in ("drive", "gravity", "shaft", "whirl", "solver", "output"):
+        names = ("drive", "gravity", "shaft", "housing", "whirl", "solver", "output")
+        for name in names if self.housing.body else (n for n in names if n != "housing"):
             table[name] = to_table(getattr(self, name), named=NAMED)
         rows = []
         for seated in self.bearings:
@@ -163,6 +166,8 @@ class _Reader:
             own_tables = {key: v for key, v in row.items() if key in _SECTIONS}
             case, table, folder = self._case(place, own_tables)
         except InputError as exc:
+            if str(exc.where or "").startswith("drive."):  # the machine's
+                raise
             raise InputError(
                 f"In [[bearings]] '{place.name}': {exc}", where=where, value=exc.value
             ) from exc

@@ -42,6 +42,18 @@ def _find_in_motion(machine: Machine) -> Iterator[tuple[str, str]]:
         )
     if machine.drive.at_start == 0.0 and machine.drive.ramp_to is None and not machine.drive.times:
         yield "drive.speed", "drive.speed is 0: a run needs a shaft that turns; give its speed."
+    if machine.housing.body:
+        yield (
+            "housing.body",
+            "housing.body is given, but in a run each outer ring has a seat of its own; give "
+            "[bearings.mount] instead, for now.",
+        )
+    if machine.housing.body:
+        yield (
+            "housing.body",
+            "housing.body carries several seats, which a run has not yet; leave [housing] out and "
+            "give bearings a mount of their own, or take 'flexcage static'.",
+        )
     for seated in machine.bearings:
         place, where = seated.place, f"bearings.{seated.place.name}"
         if seated.case.mount.body and place.facing == "-x":

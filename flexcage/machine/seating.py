@@ -3,15 +3,17 @@ which it sees the shaft."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy.linalg as la
 
 from flexcage.bearings import statics_of
 from flexcage.contacts.spec import Contacts
 from flexcage.core.errors import FlexcageError, InputError
 from flexcage.geometry.bearing import Bearing
-from flexcage.machine.machine import SeatedBearing
+from flexcage.machine.machine import Machine, SeatedBearing
 from flexcage.system.spec import Load
 from flexcage.system.statics.elements import Elements
 from flexcage.system.statics.equilibrium import Posture, Problem, posture_at, tangent
@@ -115,6 +117,73 @@ def _approach(spec: SeatedBearing, force: float) -> float:
             where=f"bearings.{spec.place.name}.preload_force",
         ) from exc
     return float(alone.displacement[0])
+
+
+def in_housing(machine: Machine, bearings: Sequence[Seated]) -> tuple[list[Seated], np.ndarray]:
+    """The bearings, those without a seat of their own in the machine's housing if it has one, and
+    the stiffness (P, P) of all seats over the coordinates p of all outer rings."""
+    own = [b.outer.stiffness for b in bearings]
+    housing = machine.housing
+    if not housing.body:
+        return list(bearings), la.block_diag(*own)
+    from flexcage.system.seat import seats_compliance  # with readers of files, which few need
+
+    there = [k for k, b in enumerate(bearings) if not _has_seat(b)]
+    if not there:
+        raise InputError(
+            "housing.body is given, but every bearing has a [bearings.mount] of its own; leave one "
+            "of both out.",
+            where="housing.body",
+        )
+    places = [(b.spec.place.position, b.bearing.outside_diameter, b.bearing.width)
+              for b in (bearings[k] for k in there)]  # fmt: skip
+    signs = np.concatenate([bearings[k].mirror for k in there])
+    found = seats_compliance(housing, places, tie=housing.seat_tie, where="housing.body")
+    found = np.outer(signs, signs) * found
+    slides = [bearings[k].spec.place.axial_seat == "floating" for k in there]
+    held = ~np.array([slide and way == 0 for slide in slides for way in range(5)])
+    scales = np.tile(_scales(), len(there))[held]
+    inverse = np.linalg.inv(found[np.ix_(held, held)] / np.outer(scales, scales))
+    whole = np.zeros((len(held), len(held)))
+    whole[np.ix_(held, held)] = inverse / np.outer(scales, scales)
+    moved = list(bearings)
+    for n, k in enumerate(there):
+        b, rows = bearings[k], slice(5 * n, 5 * n + 5)
+        if slides[n]:
+            whole[5 * n, 5 * n] = b.spec.place.spring_stiffness
+        push = np.array([b.spec.place.spring_force if slides[n] else 0.0, 0.0, 0.0, 0.0, 0.0])
+        outer = OuterRing(
+            np.eye(5), _alone(found[rows, rows], whole[5 * n, 5 * n], slides[n]), push
+        )
+        moved[k] = replace(b, outer=outer)
+    return moved, _placed([m.outer.ways.shape[1] for m in moved], own, there, whole)
+
+
+def _has_seat(b: Seated) -> bool:
+    return bool(b.spec.case.mount.body) or b.spec.case.mount.kind != "fixed"
+
+
+def _alone(compliance: np.ndarray, spring: float, slides: bool) -> np.ndarray:
+    """Stiffness (5, 5) of one seat of a housing, with no force on the others."""
+    found, kept = np.zeros((5, 5)), slice(1 if slides else 0, 5)
+    found[kept, kept] = np.linalg.inv(compliance[kept, kept])
+    if slides:
+        found[0, 0] = spring
+    return found
+
+
+def _placed(
+    counts: Sequence[int], own: Sequence[np.ndarray], there: Sequence[int], whole: np.ndarray
+) -> np.ndarray:
+    """Stiffness of all seats: ``whole`` of those in the housing, ``own`` of the others."""
+    ends = np.cumsum([0, *counts])
+    found = np.zeros((ends[-1], ends[-1]))
+    for k, stiffness in enumerate(own):
+        if k not in there:
+            found[ends[k] : ends[k + 1], ends[k] : ends[k + 1]] = stiffness
+    rows = np.concatenate([np.arange(ends[k], ends[k + 1]) for k in there])
+    found[np.ix_(rows, rows)] = whole
+    return found
 
 
 def _outer_ring(spec: SeatedBearing) -> OuterRing:

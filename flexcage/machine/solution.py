@@ -11,7 +11,7 @@ from typing import Any
 from flexcage._version import __version__
 from flexcage.core.writing import write_text
 from flexcage.machine.state import BearingResult, MachineState
-from flexcage.machine.table import table_of
+from flexcage.machine.table import html_of, table_of
 
 __all__ = ["BearingResult", "MachineSolution"]
 
@@ -27,6 +27,10 @@ class MachineSolution(MachineState):
         return table_of(self, width)
 
     __str__ = table
+
+    def _repr_html_(self) -> str:
+        """For notebooks."""
+        return html_of(self)
 
     def __repr__(self) -> str:
         borne = ", ".join(f"{b.name} {b.radial:.4g} N" for b in self.bearings)

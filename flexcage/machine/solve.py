@@ -14,7 +14,7 @@ from flexcage.core.threads import one_blas_thread
 from flexcage.core.units import describe, mm
 from flexcage.machine.equilibrium import Standing, Together, balance, tangent_of
 from flexcage.machine.machine import Machine
-from flexcage.machine.seating import Seated, seat
+from flexcage.machine.seating import Seated, in_housing, seat
 from flexcage.machine.shaft import ShaftModel, build_shaft
 from flexcage.machine.solution import BearingResult, MachineSolution
 from flexcage.static import lives_of
@@ -24,6 +24,7 @@ from flexcage.system.statics.solution import StaticSolution
 from flexcage.system.statics.solve import solution_at
 from flexcage.system.statics.yielding import questioned
 
+_OTHER = 0.02  # of a bore, by which the shaft's diameter may differ
 _NEAR = 0.15  # of a critical speed: closer, a warning
 
 
@@ -38,7 +39,8 @@ def solve_machine(machine: Machine) -> MachineSolution:
     load = shaft.load(machine.gravity)
     size = _size(machine, load)
     seats = [seat(b, shaft.dofs(b.place.position), size) for b in machine.bearings]
-    together = Together(shaft, load, seats)
+    seats, stiffness = in_housing(machine, seats)
+    together = Together(shaft, load, seats, stiffness)
     found = balance(together)
     q, rings = together.split(found.z)
     results, reactions = [], np.zeros_like(load)
@@ -50,7 +52,7 @@ def solve_machine(machine: Machine) -> MachineSolution:
         name=machine.name, speed=machine.speed, shaft=shaft, displacement=q.reshape(-1, 5),
         sections=shaft.borne(reactions, machine.gravity), bearings=tuple(results), load=load,
         tangent=_condensed(together, found), warnings=(), unbalanced=found.share_left,
-        whirl=machine.whirl,
+        whirl=machine.whirl, gravity=machine.gravity,
     )  # fmt: skip
     return replace(solution, warnings=tuple(_warnings(machine, solution)))
 
@@ -66,14 +68,11 @@ def _size(machine: Machine, load: np.ndarray) -> float:
 def _condensed(m: Together, found: Standing) -> np.ndarray:
     """Slopes of the forces on the shaft over its own motions, the outer rings following."""
     whole, count = tangent_of(m, found), m.starts[0]
-    shaft = whole[:count, :count].copy()
-    for k in range(len(m.bearings)):  # ring by ring: one that nothing presses has a pivot of 0
-        own = slice(m.starts[k], m.starts[k + 1])
-        if own.start == own.stop:
-            continue
-        inner = np.linalg.pinv(whole[own, own], rcond=1e-14)
-        shaft -= whole[:count, own] @ inner @ whole[own, :count]
-    return shaft
+    rings = whole[count:, count:]
+    size = np.sqrt(np.maximum(np.abs(np.diag(rings)), 1e-300))  # of rings that nothing presses: 0
+    inner = np.linalg.pinv(rings / np.outer(size, size), rcond=1e-13) / np.outer(size, size)
+    following = whole[:count, count:] @ inner @ whole[count:, :count]
+    return np.asarray(whole[:count, :count] - following)
 
 
 def _result(
@@ -120,6 +119,7 @@ def _told(b: Seated, own: StaticSolution) -> StaticSolution:
 
 def _warnings(machine: Machine, s: MachineSolution) -> list[str]:
     found = [f"bearing {b.name}: {text}" for b in s.bearings for text in b.solution.warnings]
+    found += _of_bores(machine)
     found += _of_stress(machine, s.shaft, s)
     speed = abs(machine.speed)
     for critical in s.linearised.critical_speeds() if speed else ():
@@ -127,6 +127,23 @@ def _warnings(machine: Machine, s: MachineSolution) -> list[str]:
             found.append(
                 f"the speed, {describe(speed, 'rpm')}, is within {_NEAR:.0%} of a critical speed, "
                 f"{describe(critical, 'rpm')}."
+            )
+    return found
+
+
+def _of_bores(machine: Machine) -> list[str]:
+    """A sentence on each bearing whose bore is not the diameter of the shaft where it stands."""
+    found, ends = [], np.cumsum([0.0, *(s.length for s in machine.shaft.sections)])
+    for seated in machine.bearings if machine.shaft.sections else ():
+        bearing, x = seated.case.bearing, seated.place.position
+        half = 0.5 * bearing.width
+        under = [s.diameter for s, a, b in zip(machine.shaft.sections, ends, ends[1:])
+                 if a < x + half and b > x - half]  # fmt: skip
+        nearest = min(under, key=lambda d: abs(d - bearing.bore))
+        if abs(nearest - bearing.bore) > _OTHER * bearing.bore:
+            found.append(
+                f"bearing {seated.place.name} has a bore of {mm(bearing.bore)}, but at "
+                f"{mm(x)} the shaft's diameter is {mm(nearest)}: is there a sleeve?"
             )
     return found
 

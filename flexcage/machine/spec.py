@@ -14,6 +14,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from flexcage.core.body_file import BodyFile
 from flexcage.core.spec import GIVEN, option, quantity
 from flexcage.geometry.materials import MATERIALS, Material
 
@@ -254,6 +255,23 @@ class BearingPlace:
         a mirror across the axis, which turns x and both tilts round."""
         sign = float(f"{self.facing[0]}1")
         return np.array([sign, 1.0, 1.0, sign, sign])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Housing(BodyFile):
+    """One elastic body with the seats of several bearings, in the machine's axes and held to the
+    ground: every bearing without a [bearings.mount] of its own sits in it, where its nodes are."""
+
+    elsewhere: ClassVar[Mapping[str, str]] = {
+        r"stiffness|kind|mass|damping": "a seat of given stiffness is [bearings.mount] with kind = "
+        '"bushing"',
+    }
+
+    seat_tie: str = option(
+        "rigid", choices=("rigid", "average"), when={"body": GIVEN},
+        doc="'rigid': a seat's nodes move as its ring does (RBE2); 'average': the ring moves as "
+        "they do on average (RBE3)",
+    )  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True)

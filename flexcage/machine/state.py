@@ -12,7 +12,7 @@ from flexcage.core.errors import InputError
 from flexcage.core.units import mm
 from flexcage.machine.linear import Linearised, of_shaft
 from flexcage.machine.shaft import SectionForces, ShaftModel
-from flexcage.machine.spec import Whirl
+from flexcage.machine.spec import Gravity, Whirl
 from flexcage.system.statics.solution import StaticSolution
 
 _NOTHING = 1e-13  # of the largest stiffness: a spring that holds what else nothing does
@@ -61,6 +61,7 @@ class MachineState:
     warnings: tuple[str, ...]
     unbalanced: float
     whirl: Whirl = Whirl()
+    gravity: Gravity = Gravity()
 
     @property
     def position(self) -> np.ndarray:

@@ -6,10 +6,19 @@ from math import isfinite, pi
 
 import numpy as np
 
+from flexcage.core import html
 from flexcage.core.listing import aligned, wrapped
 from flexcage.core.units import describe, mm
 from flexcage.machine.state import BearingResult, MachineState
 
+_FRAME = (
+    "x along the shaft from its left end, y and z across; forces and moments are those of the "
+    "bearings on the shaft"
+)
+_INSIDE = (
+    "offset that the inner ring is pressed in by; elements that both races load; Q and p: largest "
+    "force and pressure of one; lives L10 by ISO 281, L10r by ISO/TS 16281"
+)
 _SMALL = 1e-9  # of the largest of its kind: shown as 0
 _UNITS = np.array([1e6, 1e6, 1e6, 1e3, 1e3])
 _CRITICALS = 6  # that are told
@@ -21,19 +30,14 @@ def table_of(s: MachineState, width: int = 0) -> str:
     def grid(lines: list[list[str]], sides: str = "lr") -> str:
         return aligned(lines, sides=sides, heads=True, width=width)
 
-    kind = "rigid" if s.shaft.rigid else "elastic"
-    head = f"{s.name}: {kind} shaft in {len(s.bearings)} bearings at {s.speed * 30.0 / pi:.6g} rpm"
-    frame = (
-        "x along the shaft from its left end, y and z across; forces and moments are those of the "
-        "bearings on the shaft"
-    )
+    head, frame = _head(s), f"{_FRAME}; {_gravity(s)}"
     parts = [wrapped(head, width=width), f"{wrapped(frame, width=width)}\n{grid(_forces(s))}"]
     note = wrapped(
         "stiffness: of a bearing with its seat, other motions held; of the shaft, a force or "
         "moment alone over its own displacement, all bearings following", width=width,
     )  # fmt: skip
     parts += [
-        grid(_presses(s)),
+        f"{wrapped(_INSIDE, width=width)}\n{grid(_presses(s))}",
         f"{note}\n{grid(_stiffness(s))}",
         aligned(_shaft_lines(s), width=width),
     ]
@@ -43,6 +47,41 @@ def table_of(s: MachineState, width: int = 0) -> str:
         parts.append(f"{wrapped(note, width=width)}\n{grid(criticals, 'rl')}")
     parts += [wrapped(f"Warning: {text}", width=width) for text in s.warnings]
     return "\n\n".join(parts)
+
+
+def html_of(s: MachineState) -> str:
+    """Warnings, forces, contacts; stiffness, shaft and critical speeds unfold."""
+    forces, presses, stiffness, criticals = (
+        html.table(lines[1:], heads=lines[0], sides="lr")
+        for lines in (_forces(s), _presses(s), _stiffness(s), _critical_lines(s))
+    )
+    return html.block(
+        _head(s),
+        html.bullets(f"Warning: {text}" for text in s.warnings),
+        html.paragraphs([f"{_FRAME}; {_gravity(s)}"]),
+        forces,
+        html.paragraphs([_INSIDE]),
+        presses,
+        html.table(_shaft_lines(s)),
+        html.folded("Stiffness", stiffness),
+        html.folded("Critical speeds", criticals),
+    )
+
+
+def _head(s: MachineState) -> str:
+    kind = "rigid" if s.shaft.rigid else "elastic"
+    count = f"{len(s.bearings)} bearing{'s' if len(s.bearings) > 1 else ''}"
+    return f"{s.name}: {kind} shaft in {count} at {s.speed * 30.0 / pi:.6g} rpm"
+
+
+def _gravity(s: MachineState) -> str:
+    """Which way weight acts, in words."""
+    g = s.gravity
+    if not g.acceleration:
+        return "no gravity"
+    if g.along != "across":
+        return f"gravity towards {g.along}"
+    return f"gravity at {describe(g.direction, 'deg')} from y towards z"
 
 
 def _clean(values: np.ndarray, size: float) -> list[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Sequence
 from math import atan2, hypot, pi
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from flexcage.core.writing import write_text
 from flexcage.machine.linear import amplitude
 from flexcage.machine.machine import Machine
 from flexcage.machine.solution import MachineSolution
-from flexcage.machine.spec import Disc
+from flexcage.machine.spec import Disc, Shaft
 from flexcage.static import write_static
 
 log = logging.getLogger(__name__)
@@ -115,9 +116,6 @@ def draw_machine(machine: Machine, solution: MachineSolution, path: str | Path) 
     )
 
     shaft, sections = machine.shaft, solution.sections
-    ends = np.concatenate([[0.0], np.cumsum([s.length for s in shaft.sections])])
-    outline = np.array([(a, b, s.diameter, s.bore)
-                        for a, b, s in zip(ends, ends[1:], shaft.sections)])  # fmt: skip
     bearings = []
     for seated, own in zip(machine.bearings, solution.bearings):
         b, place = seated.case.bearing, seated.place
@@ -125,11 +123,9 @@ def draw_machine(machine: Machine, solution: MachineSolution, path: str | Path) 
         faces = (1 if place.facing == "+x" else -1) if one_way else 0
         bearings.append(Drawn(own.name, own.position, b.bore, b.outside_diameter, b.width, faces,
                               place.axial_seat == "floating", own.force[:3]))  # fmt: skip
-    if not len(outline):
-        bore = min(b.bore for b in bearings)
-        outline = np.array([(0.0, shaft.whole_length, bore, 0.0)])
     drawing = ShaftDrawing(
-        outline.reshape(-1, 4), bearings, _discs(shaft.discs, shaft.whole_length),
+        sections_drawn(shaft, [b.bore for b in bearings]), bearings,
+        discs_drawn(shaft.discs, shaft.whole_length),
         [(p.position, np.array(p.force)) for p in shaft.loads],
     )  # fmt: skip
     curves = ShaftCurves(
@@ -145,7 +141,18 @@ def draw_machine(machine: Machine, solution: MachineSolution, path: str | Path) 
     return machine_picture(drawing, curves, path, title=machine.name, note=note)
 
 
-def _discs(discs: tuple[Disc, ...], length: float) -> np.ndarray:
+def sections_drawn(shaft: Shaft, bores: Sequence[float]) -> np.ndarray:
+    """Begin, end, outside and inside diameter (k, 4) [m] of a shaft's sections; of one without, as
+    thick as the smallest of the bearings' ``bores``."""
+    if not shaft.sections:
+        return np.array([[0.0, shaft.whole_length, min(bores), 0.0]])
+    ends = np.concatenate([[0.0], np.cumsum([s.length for s in shaft.sections])])
+    return np.array([
+        (a, b, s.diameter, s.bore) for a, b, s in zip(ends, ends[1:], shaft.sections)
+    ])  # fmt: skip
+
+
+def discs_drawn(discs: tuple[Disc, ...], length: float) -> np.ndarray:
     """Place, diameter and width (k, 3) [m]; those of a disc by mass as its inertia has them."""
     rows = []
     for disc in discs:

@@ -14,6 +14,7 @@ from flexcage.system.shaft.data import RIGID_ROTOR, SHAFT_POWERS
 
 FILE = "shaft.nc"
 _AXES = ("x", "y", "z")
+_SAME = 1e-4  # m: an end that is so near to a bearing or disc is one place with it
 _COMPONENTS = (*_AXES, "about y", "about z")
 
 
@@ -82,7 +83,10 @@ def _places(shaft: TurningShaft) -> dict[str, float]:
     found = {b.place.name: b.place.position for b in machine.bearings}
     for k, disc in enumerate(machine.shaft.discs):
         found[disc.name or f"disc {k}"] = disc.position
-    return {**found, "left end": 0.0, "right end": machine.shaft.whole_length}
+    for name, end in (("left end", 0.0), ("right end", machine.shaft.whole_length)):
+        if all(abs(end - place) > _SAME for place in found.values()):
+            found[name] = end
+    return found
 
 
 def _joined(blocks: list[np.ndarray]) -> np.ndarray:

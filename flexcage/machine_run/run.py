@@ -148,14 +148,35 @@ class MachineRun:
         return self
 
     def draw(self, folder: str | Path, **look: Any) -> list[Path]:
-        """Draw the shaft's orbits and forces into ``folder``, and each bearing's pictures into a
-        folder there; ``look`` as ``Run.draw`` takes it. Paths of the files."""
+        """Draw the machine, and the shaft's orbits and forces, into ``folder``, and each bearing's
+        pictures into a folder there; ``look`` as ``Run.draw`` takes it. Paths of the files."""
         into = path_of(folder, "folder")
         into.mkdir(parents=True, exist_ok=True)
-        made = [self.draw_shaft(into / "shaft.png")]
+        made = [self.draw_machine(into / "machine.png"), self.draw_shaft(into / "shaft.png")]
         for name, run in self.bearings.items():
             made += run.draw(into / name, **look)
         return made
+
+    def draw_machine(self, path: str | Path, *, index: int = -1) -> Path:
+        """Picture of the whole machine at a sample (default: the last), elements by load."""
+        from flexcage.machine.writing import discs_drawn, sections_drawn
+        from flexcage.render.machine_scene import BearingInPlace, machine_scene
+
+        placed = []
+        for seated in self.machine.bearings:
+            run, place = self[seated.place.name], seated.place
+            mesh = run.mesh
+            points, tets = (None, None) if mesh is None else (mesh.points, mesh.tets)
+            placed.append(
+                BearingInPlace(
+                    place.name, run.dataset, run.case.bearing, place.position,
+                    place.facing == "-x", points, tets,
+                )
+            )  # fmt: skip
+        shaft = self.machine.shaft
+        outline = sections_drawn(shaft, [b.bearing.bore for b in placed])
+        discs = discs_drawn(shaft.discs, shaft.whole_length)
+        return machine_scene(placed, outline, discs, path, index=index, title=self.machine.name)
 
     def draw_shaft(self, path: str | Path) -> Path:
         """Picture of the shaft's orbits at named places, and of its forces on the bearings."""

@@ -48,4 +48,6 @@ def shaft_picture(
                 ax.legend(loc="upper right", ncol=3)
             if k == len(force) - 1:
                 ax.set_xlabel("time [ms]")
+            else:
+                ax.tick_params(labelbottom=False)
         return sheet.save(figure, path)

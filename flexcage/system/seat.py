@@ -13,11 +13,13 @@ which is exact at rest (Guyan, AIAA Journal 3 (1965) 380).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
 
+from flexcage.core.body_file import BodyFile
 from flexcage.core.errors import FlexcageError, InputError
 from flexcage.core.units import describe
 from flexcage.fem.linear import available_kinds, linear_solver
@@ -50,8 +52,55 @@ def seat_compliance(mount: Mount, *, diameter: float, width: float) -> np.ndarra
     motions = _motions(body, own)
     _check_rank(body, motions, diameter)
     make = _following if mount.seat_tie == "rigid" else _averaged
-    whole = make(body, own, motions)
+    whole = make(body, [own], [motions])
     return 0.5 * (whole + whole.T)[np.ix_(_FIVE, _FIVE)]
+
+
+def seats_compliance(
+    file: BodyFile, places: Sequence[tuple[float, float, float]], *, tie: str, where: str
+) -> np.ndarray:
+    """Displacements (5 b, 5 b) of the frames of b outer rings in one housing under unit forces and
+    moments on them: ``places`` (centre along x, diameter, width) [m], in the housing's axes; the
+    nodes of a seat are those that lie there. ``tie`` as ``Mount.seat_tie``, for all of them.
+
+    InputError for a housing that is not held, or a place where it has no seat.
+    """
+    body = read_body(file.body, nodes=file.body_nodes, units=file.body_units, where=where)
+    own, motions = [], []
+    for centre, diameter, width in places:
+        nodes = _nodes_at(body, centre, 0.5 * diameter, width, where)
+        rows = np.flatnonzero(np.isin(body.dofs[:, 0], nodes))
+        if tie == "average" and len(nodes) > 1:
+            rows = rows[body.dofs[rows, 1] < 3]
+        own.append(rows)
+        motions.append(_motions(body, rows, centre))
+        _check_rank(body, motions[-1], diameter)
+    make = _following if tie == "rigid" else _averaged
+    whole = make(body, own, motions)
+    five = (6 * np.arange(len(places))[:, None] + _FIVE).ravel()
+    return 0.5 * (whole + whole.T)[np.ix_(five, five)]
+
+
+def _nodes_at(
+    body: ReducedBody, centre: float, radius: float, width: float, where: str
+) -> np.ndarray:
+    """Nodes of the body on a seat round x, or the one in its centre."""
+    chosen = body.boundary
+    x, r = body.nodes[chosen, 0] - centre, np.hypot(*body.nodes[chosen, 1:].T)
+    alone = chosen[(np.abs(x) < _CENTRE * radius) & (r < _CENTRE * radius)]
+    if len(alone):
+        return alone[:1]
+    found = chosen[(np.abs(r - radius) <= _OFF * radius)
+                   & (np.abs(x) <= 0.5 * width + _OFF * radius)]  # fmt: skip
+    if not len(found):
+        raise InputError(
+            f"{body.source}: no node with coordinates of its own lies on the bearing's seat at "
+            f"x = {1e3 * centre:.4g} mm, radius {1e3 * radius:.4g} mm; write the housing in the "
+            "machine's axes, x from the shaft's left end, and keep the seats' nodes, or check "
+            f"{where}_units.",
+            where=where,
+        )
+    return found
 
 
 def implausible_seat(compliance: np.ndarray, mount: Mount, *, modulus: float, width: float) -> str:
@@ -122,10 +171,11 @@ def _check_places(
     )
 
 
-def _motions(body: ReducedBody, own: np.ndarray) -> np.ndarray:
-    """What coordinates ``own`` (m,) do in unit rigid motions about the bearing's centre (m, 6)."""
+def _motions(body: ReducedBody, own: np.ndarray, centre: float = 0.0) -> np.ndarray:
+    """What coordinates ``own`` (m,) do in unit rigid motions about the bearing's centre (m, 6),
+    which lies so far along x."""
     every = np.zeros((len(body.nodes), 6, 6))
-    every[:, :3] = rigid_motions(body.nodes)
+    every[:, :3] = rigid_motions(body.nodes - np.array([centre, 0.0, 0.0]))
     every[:, 3:, 3:] = np.eye(3)
     node, component = body.dofs[own].T
     return every[node, component]
@@ -144,22 +194,27 @@ def _check_rank(body: ReducedBody, motions: np.ndarray, diameter: float) -> None
         )
 
 
-def _following(body: ReducedBody, own: np.ndarray, motions: np.ndarray) -> np.ndarray:
-    """Compliance (6, 6) of a ring that the seat follows."""
-    rest = np.setdiff1d(np.arange(body.size), own)
-    columns = np.concatenate([np.repeat(own, 6), rest])
-    ring = np.tile(np.arange(6), len(own))
-    rows = np.concatenate([ring, 6 + np.arange(len(rest))])
-    values = np.concatenate([motions.ravel(), np.ones(len(rest))])
-    tie = sp.csr_matrix((values, (columns, rows)), shape=(body.size, 6 + len(rest)))
-    load = np.eye(6 + len(rest), 6)
-    return _solved(body, tie.T @ sp.csr_matrix(body.stiffness) @ tie, load)[:6]
+def _following(
+    body: ReducedBody, own: Sequence[np.ndarray], motions: Sequence[np.ndarray]
+) -> np.ndarray:
+    """Compliance (6 b, 6 b) of rings that their seats follow."""
+    rest, many = np.setdiff1d(np.arange(body.size), np.concatenate(own)), 6 * len(own)
+    columns = np.concatenate([*(np.repeat(rows, 6) for rows in own), rest])
+    rings = [np.tile(6 * k + np.arange(6), len(rows)) for k, rows in enumerate(own)]
+    rows = np.concatenate([*rings, many + np.arange(len(rest))])
+    values = np.concatenate([*(m.ravel() for m in motions), np.ones(len(rest))])
+    tie = sp.csr_matrix((values, (columns, rows)), shape=(body.size, many + len(rest)))
+    load = np.eye(many + len(rest), many)
+    return _solved(body, tie.T @ sp.csr_matrix(body.stiffness) @ tie, load)[:many]
 
 
-def _averaged(body: ReducedBody, own: np.ndarray, motions: np.ndarray) -> np.ndarray:
-    """Compliance (6, 6) of a ring that follows the seat's mean rigid motion."""
-    share = np.zeros((body.size, 6))
-    share[own] = motions @ np.linalg.inv(motions.T @ motions)
+def _averaged(
+    body: ReducedBody, own: Sequence[np.ndarray], motions: Sequence[np.ndarray]
+) -> np.ndarray:
+    """Compliance (6 b, 6 b) of rings that follow their seats' mean rigid motions."""
+    share = np.zeros((body.size, 6 * len(own)))
+    for k, (rows, moves) in enumerate(zip(own, motions)):
+        share[rows, 6 * k : 6 * k + 6] = moves @ np.linalg.inv(moves.T @ moves)
     return share.T @ _solved(body, sp.csr_matrix(body.stiffness), share)
 
 

@@ -26,7 +26,7 @@ from flexcage.geometry.heat.network import (
 from flexcage.geometry.heat.spec import Heat
 from flexcage.geometry.life.oil import viscosity_at
 from flexcage.geometry.life.spec import Life
-from flexcage.geometry.temperature import MODULUS_CURVES
+from flexcage.geometry.temperature import MODULUS_CURVES, beyond_service
 from flexcage.results.losses import losses_of_run
 from flexcage.simulate import simulate
 from flexcage.static import solve_static
@@ -68,12 +68,12 @@ def warmed(
 ) -> tuple[StaticCase, tuple[str, ...]]:
     """The case at temperatures [K]: viscosity, fits and the cage's modulus follow; and sentences on
     what does not. Raises InputError where the clearance cannot be."""
-    film = film_of(temperatures)
+    film = round(film_of(temperatures), 2)
     changes: dict[str, float] = {
         f"fit.{name}_temperature": temperatures[body] for name, body in _FIT.items()
     }
     changes |= {
-        "lubricant.viscosity": kinematic(case, film) * case.lubricant.density,
+        "lubricant.viscosity": float(f"{kinematic(case, film) * case.lubricant.density:.6g}"),
         "life.temperature": film,
     }
     notes = [_NO_POCKETS] if case.heat.losses == "static" else []
@@ -88,6 +88,8 @@ def warmed(
                 f"the cage keeps its modulus: that of {material} at {warmth - ZERO:.0f} degC is "
                 "not known."
             )
+        if hot := beyond_service(cage.material, warmth):
+            notes.append(f"{hot}.")
     return case.replace(changes), tuple(notes)
 
 

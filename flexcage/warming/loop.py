@@ -197,7 +197,8 @@ def _unsettled(heat: Heat, found: Iteration) -> str:
 def _result(case: StaticCase, done: list[Evaluated], verdict: str, sentence: str) -> Warmth:
     """The value of iterations, with the case and its static solution at their end."""
     last = done[-1]
-    final, notes = warmed(case, last.iteration.temperatures)
+    written = {b: round(t, 2) for b, t in last.iteration.temperatures.items()}  # as people write
+    final, notes = warmed(case, written)
     solution = solve_static(final)
     if case.heat.losses == "run":
         said = (warning.text for warning in foreseen(cast(Case, final), stress=False))

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 PAGES = [Path(__file__).with_name(name) for name in ("README.md", "peers.md", "methods.md")]
-FAST = ("solver", "fe", "scale", "ball", "methods", "start", "own")
+FAST = ("solver", "fe", "scale", "ball", "methods", "start", "own", "machine")
 SLOW = {
     "peer": "sksundae",
     "exudyn": "exudyn",

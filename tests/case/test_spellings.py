@@ -191,6 +191,39 @@ SPELLINGS: dict[str, tuple[tuple[float | str, str], ...]] = {
         (12e-6, "12e-6 1/K | 12e-6/K | 1.2e-5 K^-1 | 12 um/(m*K) | 12 µm/m/K | 12e-6 1/°C"),
         (OTHER, "12 um/m | 12 K"),
     ),
+    "power": (
+        (20.0, "20 W | 0.02 kW | 20 J/s | 20 N m/s | 2e4 mW"),
+        (OTHER, "20 J | 20 N*m | 20 W/K"),
+        ("is 'W' meant", "20 w"),
+    ),
+    "thermal conductance": (
+        (2.0, "2 W/K | 2 W/degC | 2 W/°C | 2 W K^-1 | 2e-3 kW/K"),
+        (OTHER, "2 W | 2 W/m | 2 W/(m*K) | 2 W/mK | 2 K/W"),
+    ),
+    "heat transfer": (
+        (
+            5000.0,
+            "5000 W/(m^2*K) | 5000 W/m^2/K | 5000 W/m²K | 5000 W/m^2K | 5000 W/m2K | 5000 W/m² K | "
+            "5000 W/(m2 K) | 5000 W/(m²·K) | 5 kW/m²K | 5 kW/(m^2*K)",
+        ),
+        (OTHER, "5000 W/m^2 | 5000 W/K | 5000 W/mK"),
+    ),
+    "thermal conductivity": (
+        (45.0, "45 W/(m*K) | 45 W/m/K | 45 W/mK | 45 W/m K | 45 W/(m·K) | 0.45 W/(cm K)"),
+        (OTHER, "45 W/K | 45 W/m | 45 W/m²K"),
+    ),
+    "specific heat": (
+        (
+            470.0,
+            "470 J/(kg*K) | 470 J/kg/K | 470 J/kgK | 470 J/kg K | 0.47 kJ/(kg K) | 0.47 kJ/kgK",
+        ),
+        (OTHER, "470 J/kg | 470 J/K"),
+    ),
+    "flow": (
+        (1e-3 / 60.0, "1 l/min | 1 L/min | 1000 cm^3/min | 60 l/h | 1 dm^3/min | 1000 ml/min"),
+        (OTHER, "1 l | 1 kg/s | 1 m/s"),
+        (UNKNOWN, "1 lpm"),
+    ),
     "viscosity": (
         (
             0.01,

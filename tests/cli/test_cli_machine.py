@@ -77,6 +77,14 @@ def test_a_value_of_a_bearing_is_set_by_its_name(file, capsys):
     assert "names no bearing of the machine; they are A, B" in capsys.readouterr().err
 
 
+def test_a_shaft_of_another_diameter_than_the_bore_is_questioned(file, capsys):
+    assert cli.main(["static", "pair.toml"]) == 0
+    assert "Warning" not in capsys.readouterr().out
+    assert cli.main(["static", "pair.toml", "--set", "shaft.sections.0.diameter=45 mm"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "bearing A has a bore of 50 mm, but at 60 mm the shaft's diameter is 45 mm" in said
+
+
 @pytest.mark.parametrize("command", ["mesh", "modes", "converge"])
 def test_a_machine_is_no_case_of_one_bearing(file, capsys, command):
     assert cli.main([command, "pair.toml"]) == 2
@@ -117,6 +125,7 @@ MISTAKES = [
     (('preset = "7010C-PI"', 'case = "none.toml"'), "There is no case file"),
     (('name = "pair"', 'name = "pair"\nload = "5 N"'), "loads are [[shaft.loads]]"),
     (('facing = "-x"', 'facing = "+x"'), "Bearing A faces +x and cannot bear what the shaft"),
+    (('speed = "3000 rpm"', 'speed = "3000 rpm"\nramp_to = "9 rpm"'), "flexcage: drive.ramp_to is"),
     (("[drive]", "[gravity]\nalong = \"down\"\n[drive]"), "gravity.along 'down' is not known"),
 ]  # fmt: skip
 

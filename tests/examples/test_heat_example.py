@@ -48,7 +48,8 @@ def test_its_page_shows_what_the_file_says(warmth):
 
 def test_the_settled_case_is_as_warm(warmth):
     case, t = warmth.case, warmth.temperatures
-    assert case.cage.temperature == t["cage"] and case.fit.element_temperature == t["elements"]
-    assert case.mounting.operating == pytest.approx(warmth.last.clearance, rel=1e-12)
+    assert case.cage.temperature == pytest.approx(t["cage"], abs=0.006)
+    assert case.fit.element_temperature == pytest.approx(t["elements"], abs=0.006)
+    assert case.mounting.operating == pytest.approx(warmth.last.clearance, abs=2e-8)
     again = load_case(case.to_toml())
     assert again.hash == case.hash and again.mounted.bearing == case.mounted.bearing

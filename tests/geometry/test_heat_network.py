@@ -154,6 +154,15 @@ def test_heat_needs_an_oil_and_a_speed():
         case('ambient = "30 degC"', speed="0 rpm")
 
 
+def test_heat_needs_to_know_how_bodies_grow():
+    own = 'material = {name = "alloy", youngs_modulus = "200 GPa", poisson_ratio = 0.3, '
+    own += 'density = "7800 kg/m^3"}'
+    with pytest.raises(InputError, match="no thermal expansion of alloy is known; give bearing.m"):
+        load_static(CASE.format(heat="", speed="5400 rpm").replace(
+            "[drive]", f"{own}\n[drive]").replace("[heat]", "[heat]\nseal_torque = '1 N*mm'") + OIL
+        )  # fmt: skip
+
+
 def test_a_case_with_heat_reads_back():
     warm = case('housing_ambient = "2.5 W/K"\noil_flow = "0.2 l/min"\noil_inlet = "40 degC"')
     assert warm.heat.oil_flow == pytest.approx(0.2e-3 / 60.0)

@@ -185,6 +185,9 @@ def test_solution_as_json(solved, tmp_path):
     found = json.loads((tmp_path / "machine.json").read_text("utf-8"))
     assert found["bearings"]["fixed"]["force"][0] == pytest.approx(300.0)
     assert found["bearings"]["other"]["solution"]["elements"]["force"][0][0] > 0.0
+    page = solved._repr_html_()
+    assert "elastic shaft in 2 bearings at 1500 rpm" in page and "<td" in page
+    assert "gravity at 180 deg from y towards z" in solved.table(100).replace("\n", " ")
     with pytest.raises(InputError, match="no bearing 'C'; they are fixed, other"):
         _ = solved["C"]
     with pytest.raises(InputError, match="off the shaft, which is 380 mm"):

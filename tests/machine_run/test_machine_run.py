@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from flexcage import load_run
 from flexcage.cli import main
@@ -106,8 +107,12 @@ def test_every_bearing_is_a_run_in_a_folder_of_its_own(run):
     assert stored["bearings"]["rear"]["radial"] == run.summary.bearings["rear"].radial
 
 
-def test_the_shaft_is_drawn(run, tmp_path):
+def test_the_shaft_and_the_machine_are_drawn(run, tmp_path):
     assert run.draw_shaft(tmp_path / "shaft.png").stat().st_size > 20_000
+    picture = run.draw_machine(tmp_path / "machine.png")
+    pixels = np.asarray(Image.open(picture).convert("RGB"), float)
+    drawn = (pixels[96:816] < 240.0).any(axis=2).mean()
+    assert 0.08 < drawn < 0.6  # shaft and bearings, on white
 
 
 @pytest.mark.slow

@@ -3,6 +3,7 @@
 import csv
 import json
 import tomllib
+from pathlib import Path
 
 import pytest
 
@@ -13,6 +14,7 @@ from flexcage.geometry.life.oil import viscosity_at
 from flexcage.warming import warm, write_warmth
 from flexcage.warming.at_temperatures import evaluate, film_of
 
+CROWN = Path(__file__).parents[2] / "examples" / "6205_crown.toml"
 BALLS = """
 name = "6206"
 [bearing]
@@ -96,18 +98,22 @@ def test_temperatures_stay_where_they_have_settled(settled):
 
 
 def test_viscosity_clearance_and_life_follow_the_temperatures(settled):
+    """In the settled case, whose temperatures are written to 0.01 K."""
     case, t = settled.case, settled.temperatures
     film = film_of(t)
     assert case.lubricant.viscosity == pytest.approx(
-        viscosity_at(film, 68e-6, 8.7e-6) * case.lubricant.density
+        viscosity_at(film, 68e-6, 8.7e-6) * case.lubricant.density, rel=1e-3
     )
-    assert case.life.temperature == film
-    assert (case.fit.inner_temperature, case.fit.shaft_temperature) == (t["inner"], t["shaft"])
+    assert case.life.temperature == pytest.approx(film, abs=0.02)
+    fit = case.fit
+    assert (fit.inner_temperature, fit.shaft_temperature) == (
+        pytest.approx(t["inner"], abs=0.006), pytest.approx(t["shaft"], abs=0.006),
+    )  # fmt: skip
     assert t["inner"] > t["outer"] > t["housing"] > case.heat.ambient
     parts = settled.solution.mounting
-    assert parts.operating == pytest.approx(settled.last.clearance, rel=1e-12)
+    assert parts.operating == pytest.approx(settled.last.clearance, abs=2e-8)
     assert parts.part("temperature").values[1] < -2e-6  # the inner ring is the warmer one
-    assert settled.solution.lives.here.temperature == film
+    assert settled.solution.lives.here.temperature == case.life.temperature
 
 
 def test_heat_goes_where_it_is_let(settled):
@@ -191,6 +197,17 @@ def test_what_is_lacking_is_one_sentence():
         warm(load_static(bare))
     with pytest.raises(InputError, match="heat.losses is 'run', which needs a case that can be"):
         warm(balls(heat__losses="run"))
+
+
+def test_a_cage_beyond_its_service_is_told():
+    """A crown of polyamide at a million dn, which no modulus is known for there, and which ages."""
+    oil = {"life.viscosity_40": "68 mm^2/s", "life.viscosity_100": "8.7 mm^2/s",
+           "life.temperature": "90 degC"}  # fmt: skip
+    found = warm(load_case(CROWN, overrides=oil))
+    notes = " ".join(found.notes)
+    assert found.temperatures["cage"] > 393.15
+    assert "where cages of PA66-GF25 conditioned are used up to 120 degC" in notes
+    assert "the cage keeps its modulus" in notes and found.case.cage.temperature is None
 
 
 def test_the_record_has_every_iteration(settled, tmp_path):
