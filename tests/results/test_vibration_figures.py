@@ -79,6 +79,12 @@ def test_severity_of_blows_and_of_noise(known_run, bearing):
     )
 
 
+def test_samples_too_slow_for_the_band_say_so(known_run, bearing):
+    slow = struck(known_run, 993.0).isel(time_hf=slice(None, None, 8))  # 25 kHz
+    row = figures(slow, bearing).row("vibration_rms")
+    assert row.value is None and row.note.endswith("raise output.vibration_rate")
+
+
 def test_a_run_too_short_for_lines_says_so(known_run, bearing):
     short = struck(known_run, 993.0).isel(time=slice(60), time_hf=slice(240))
     row = figures(short, bearing).row("envelope_ftf")

@@ -155,3 +155,28 @@ def test_waves_shake_the_bearing_in_proportion(ring):
         swings.append(2.0 * abs(np.sum((x - x.mean()) * line)) / window.sum())
     assert swings[1] > 10.0 * swings[0]
     assert swings[2] == pytest.approx(2.0 * swings[1], rel=0.1)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("fault", "line", "nominal"),
+    [
+        ({"bearing.inner_spall.length": "1.5 mm"}, "bpfi", 450.0 * (1 + 7.938 / 38.5)),
+        ({"bearing.ball_spot.size": "1.5 mm"}, "bsf_twice",
+         100.0 * 38.5 / 7.938 * (1 - (7.938 / 38.5) ** 2)),
+    ],
+    ids=["inner race", "ball"],
+)  # fmt: skip
+def test_the_summary_tells_inner_race_and_ball(fault, line, nominal):
+    """Of a ring in a heavy housing. Sidebands of BPFI, 100 Hz apart, come near BPFO and 2 BSF, so
+    that the multiples tell more than the line alone."""
+    signals = CASE.with_name("6205_signals.toml")
+    healthy = {"bearing.outer_spall.length": "0 mm", "solver.duration": "200 ms"}
+    found = flexcage.simulate(load_case(signals, overrides={**healthy, **fault}), stress=False)
+    summary = found.summary
+    assert summary[f"nominal_{line}"] == pytest.approx(nominal, rel=1e-6)
+    assert summary[f"frequency_{line}"] == pytest.approx(nominal, rel=0.015)
+    assert summary[f"envelope_{line}"] > 15.0 * summary["envelope_floor"]
+    for other in {"bpfo", "bpfi", "bsf_twice"} - {line}:
+        own, its = (summary[f"envelope_{name}_multiples"] for name in (line, other))
+        assert own > 1.1 * its, other

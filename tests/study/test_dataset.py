@@ -176,6 +176,7 @@ def test_mistakes_are_one_sentence(built, tmp_path, capsys):
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "thesis.txt").write_text("x")
     assert "holds files and no data set" in said(good, "-o", tmp_path / "mine")
+    assert "thesis.txt" in said(good, "-o", tmp_path / "mine" / "thesis.txt")
     assert "holds no data set" in said("check", tmp_path / "mine")
     assert "severity edges 0.6 mm" in said(good, "-o", built, "--severity", "1 mm")
     assert "check takes the folder of one data set" in said("check")

@@ -6,6 +6,7 @@ from __future__ import annotations
 from functools import partial
 from math import isfinite
 
+from flexcage.results.evenly import FEWEST
 from flexcage.results.figures.figure import FigureTable, Found
 from flexcage.results.figures.part import SettledRun
 from flexcage.results.frequencies import SOUGHT
@@ -20,6 +21,7 @@ LINES = {
     "BPFI": ("bpfi", "elements that pass a place of the inner race"),
 }
 _SHORT = "the run is too short to tell; raise solver.duration"
+_SLOW = "too few samples a second for the band to 20 kHz; raise output.vibration_rate"
 
 
 def _own(line: str, part: SettledRun) -> Found:
@@ -49,7 +51,8 @@ for _line, (_key, _what) in LINES.items():
 def _of(name: str, part: SettledRun) -> Found:
     """A figure of the outer ring's acceleration, along the axis where it is larger."""
     if part.vibration is None:
-        return Found(None, _SHORT)
+        many = part.ds.sizes["time_hf"] >= FEWEST
+        return Found(None, _SLOW if many else _SHORT)
     axis, figures = part.vibration
     value = figures[name]
     return Found(value, f"along {axis}") if isfinite(value) else Found(None, _SHORT)

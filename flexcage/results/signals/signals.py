@@ -39,7 +39,9 @@ def signals_of(
 
     if not sensors:
         raise InputError(
-            "The case has no sensors; give [[sensors]], as in examples/signals.md.", where="sensors"
+            "The case has no sensors; give [[sensors]], as in examples/signals.md, or those of "
+            "another file (--sensors FILE; in Python, run.signals_of).",
+            where="sensors",
         )
     found = {sensor.name: _signal(ds, sensor, cage, settle) for sensor in sensors}
     several = len({(t[0], len(t), rate) for t, rate, _ in found.values()}) > 1

@@ -10,6 +10,7 @@ from typing import Any
 
 from flexcage.core.binding import path_of
 from flexcage.core.errors import InputError
+from flexcage.core.output_folders import check_no_file
 from flexcage.core.progress import Silent
 from flexcage.simulate import load_run
 from flexcage.study.dataset import card, labels
@@ -44,6 +45,7 @@ def build_dataset(
     study: Study = spec.study() if is_map else spec
     _check(study, path)
     wanted = _checked(settings or Settings())
+    check_no_file(folder.path)
     with folder.held():
         kept = folder.prepare(wanted)
         run = run_map if is_map else run_study

@@ -100,14 +100,18 @@ def solution_at(
 
 def _frequencies(bearing: Bearing, loads: ElementLoads, speed: float) -> list[dict[str, float]]:
     """Passing frequencies of pure rolling: at the mean contact angles of elements that bear load on
-    both races, and at the nominal one."""
-    nominal = bearing.nominal_contact_angle
+    both races, and at the nominal one. None of a type that does not say how large its elements
+    are."""
+    try:
+        nominal, size = bearing.nominal_contact_angle, bearing.element_diameter
+    except NotImplementedError:
+        return [{}, {}]
     both = (loads.force > 0.0).all(axis=1) & np.isfinite(loads.angle).all(axis=1)
     mean = np.abs(loads.angle[both]).mean(axis=0) if both.any() else np.full(2, nominal)
     found = []
     for inner, outer in ((float(mean[0]), float(mean[1])), (nominal, nominal)):
         rolling = epicyclic(
-            element_diameter=bearing.element_diameter, pitch_diameter=bearing.pitch_diameter,
+            element_diameter=size, pitch_diameter=bearing.pitch_diameter,
             element_count=bearing.element_count, inner_speed=speed,
             contact_angle=(inner, outer),
         )  # fmt: skip

@@ -33,7 +33,7 @@ def table_of(s: StaticState, width: int = 0) -> str:
         note = wrapped(clearance_note(s.mounting), width=width)
         parts.insert(1, f"{note}\n{grid(clearance_lines(s.mounting))}")
     parts += [aligned(_life_lines(s), width=width)]
-    if s.speed != 0.0:
+    if s.speed != 0.0 and s.frequencies:
         parts.append(grid(_frequency_lines(s)))
     if s.lives is not None and s.lives.points:
         parts.append(noted(_SPECTRUM, spectrum_lines(s.lives)))
@@ -57,7 +57,11 @@ def html_of(s: StaticState) -> str:
         *_clearance_html(s),
         *_spectrum_html(s),
         html.folded("Stiffness", _html_grid(_stiffness_lines(s))),
-        *([html.folded("Frequencies", _html_grid(_frequency_lines(s)))] if s.speed else []),
+        *(
+            [html.folded("Frequencies", _html_grid(_frequency_lines(s)))]
+            if s.speed and s.frequencies
+            else []
+        ),
         html.folded("Elements", elements),
         *(
             html.folded(_bent_note(ring), _html_grid(_bent_lines(ring), sides="r"))
