@@ -80,6 +80,9 @@ _COMMON: dict[str, tuple[str, int, float]] = {
     "J/(kg*K)": ("specific heat", 0, 1.0),
     "l/min": ("flow", -3, 1.0 / 60.0),
     "m^3/s": ("flow", 0, 1.0),
+    "m/s^2/Hz^0.5": ("density of acceleration", 0, 1.0),
+    "um/Hz^0.5": ("density of length", -6, 1.0),
+    "N*mm/Hz^0.5": ("density of moment", -3, 1.0),
 }
 # units whose zero is not SI's: what it is there
 _ZEROS = {"degC": Decimal("273.15")}

@@ -252,6 +252,12 @@ SPELLINGS: dict[str, tuple[tuple[float | str, str], ...]] = {
         (OTHER, "1 N*mm | 1 g | 1 g/mm"),
         (UNKNOWN, "1 gmm"),
     ),
+    "density of acceleration": (
+        (0.003, "0.003 m/s^2/Hz^0.5 | 3 mm/s^2/Hz^0.5"),
+        (OTHER, "0.003 m/s^2 | 1 um/Hz^0.5"),
+    ),
+    "density of length": ((1e-6, "1 um/Hz^0.5 | 1e-3 mm/Hz^0.5"), (OTHER, "1 um | 1 um/Hz")),
+    "density of moment": ((1e-3, "1 N*mm/Hz^0.5 | 0.001 N*m/Hz^0.5"), (OTHER, "1 N*mm")),
 }
 ROWS = [
     (kind, text, due)
