@@ -88,7 +88,7 @@ def _envelope(ax: Any, of: Mapping[str, Any]) -> None:
     reach = 3.4 * max(of["lines"][name] for name in SOUGHT)
     shown = (frequency > 0.0) & (frequency <= reach)
     ax.plot(frequency[shown], values[shown], color=sheet.BLUE, lw=0.9)
-    for name, colour in zip(SOUGHT, (sheet.GREEN, sheet.PURPLE, sheet.VERMILION, sheet.ORANGE)):
+    for name, colour in zip(SOUGHT, (sheet.GREEN, sheet.PURPLE, sheet.VERMILION, sheet.INK)):
         for k in (1, 2, 3):
             ax.axvline(
                 k * of["lines"][name], color=colour, lw=0.9, ls=(0, (4, 3)), zorder=1,
