@@ -248,9 +248,11 @@ def report_command(args: argparse.Namespace) -> int:
     """flexcage report RUN_OR_STUDY: one HTML page of what was computed."""
     folder = Path(args.folder)
     is_study = (folder / "study.toml").is_file() and (folder / "plan.json").is_file()
+    is_machine = (folder / "shaft.nc").is_file() and (folder / "machine.toml").is_file()
     points = _numbers(args.points) if args.points else None
     if not is_study:
-        check_either(folder)
+        if not is_machine:
+            check_either(folder)
         if points is not None:
             raise InputError(f"--points belongs to a study, and '{folder}' is a run.")
     out = Path(args.out) if args.out else folder / "report.html"
@@ -264,6 +266,11 @@ def report_command(args: argparse.Namespace) -> int:
         from flexcage.study.results import StudyResults
 
         StudyResults(folder).page(out, points=points, progress=Progress)
+    elif is_machine:
+        from flexcage.machine_run import load_machine_run
+        from flexcage.machine_run.page import write_machine_page
+
+        write_machine_page(load_machine_run(folder), out)
     else:
         from flexcage.simulate import load_run
 

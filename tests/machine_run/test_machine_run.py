@@ -115,6 +115,17 @@ def test_the_shaft_and_the_machine_are_drawn(run, tmp_path):
     assert 0.08 < drawn < 0.6  # shaft and bearings, on white
 
 
+def test_the_page_has_bearings_shaft_and_pictures(run, tmp_path, capsys):
+    page = tmp_path / "report.html"
+    assert main(["report", str(run.folder), "-o", str(page)]) == 0
+    text = page.read_text()
+    for part in ("front", "rear", "tool", "radial, N", "orbit, um", "flexcage report"):
+        assert part in text
+    assert text.count("data:image") >= 3  # machine, shaft, and the static solution's
+    figures = run.summary.bearings["front"]
+    assert f"{figures.radial:.4g}" in text
+
+
 @pytest.mark.slow
 def test_orbits_under_unbalance_are_those_of_the_linearised_machine():
     """An elastic shaft, 20 g mm at its end: synchronous amplitudes at all places within 10 % (the
