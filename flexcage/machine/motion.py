@@ -12,6 +12,7 @@ from math import atan2
 
 import numpy as np
 
+from flexcage.bearings.ball.bearing import BallBearing
 from flexcage.case import Case
 from flexcage.core.errors import InputError
 from flexcage.machine.machine import Machine, SeatedBearing
@@ -62,13 +63,17 @@ def _find_in_motion(machine: Machine) -> Iterator[tuple[str, str]]:
                 f"{where} faces -x and has a housing of its own (mount.body), which a run cannot "
                 'turn round yet; take mount.kind = "bushing".',
             )
-        if place.axial_seat == "floating" and seated.case.bearing.axial_refusal(1.0) == "":
+        if slides(seated) and not isinstance(seated.case.bearing, BallBearing):
             yield (
                 f"{where}.axial_seat",
                 f"{where}.axial_seat is 'floating', but in a run the outer ring of a "
-                f"{seated.case.bearing.kind} does not slide yet; fix it, with axial_offset for its "
-                "preload.",
+                f"{seated.case.bearing.kind} does not slide yet; fix it.",
             )
+
+
+def slides(seated: SeatedBearing) -> bool:
+    """Does the outer ring of a bearing slide in its seat, as one whose elements do not?"""
+    return seated.place.axial_seat == "floating" and not seated.case.bearing.axial_refusal(1.0)
 
 
 def case_in_motion(machine: Machine, seated: SeatedBearing, result: BearingResult) -> Case:

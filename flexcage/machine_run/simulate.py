@@ -22,7 +22,13 @@ from flexcage.core.progress import Silent
 from flexcage.core.timing import Stages
 from flexcage.integrate.machine import MachineIntegration
 from flexcage.machine.machine import Machine
-from flexcage.machine.motion import as_it_begins, case_in_motion, check_moves, starting_point
+from flexcage.machine.motion import (
+    as_it_begins,
+    case_in_motion,
+    check_moves,
+    slides,
+    starting_point,
+)
 from flexcage.machine.rotor import TurningShaft
 from flexcage.machine.solution import BearingResult
 from flexcage.machine.solve import solve_machine
@@ -36,7 +42,7 @@ from flexcage.run.storing import run_store
 from flexcage.stages import made_cage
 from flexcage.system.begun import Start
 from flexcage.system.problem import BearingSystem
-from flexcage.system.shaft.problem import MachineSystem, begun, release, shaft_data
+from flexcage.system.shaft.problem import MachineSystem, begun, let_slide, release, shaft_data
 from flexcage.system.start import find_start, with_push
 
 
@@ -119,6 +125,11 @@ def _ready(
     compiling = begin_compiling(case)
     mesh, cage = made_cage(case, clock)
     bearing = clock.named("kernels", build_bearing, case, mesh, cage, compiling)
+    place = machine.bearings[k].place
+    if slides(machine.bearings[k]):
+        at = float(own.solution.outer[0])
+        force = place.spring_force + place.spring_stiffness * at
+        let_slide(bearing, force=force, stiffness=place.spring_stiffness, place=at)
     start = clock("start", _started, case, bearing, own, clock.progress)
     warned = (*foreseen, *warnings_at_start(case, mesh, cage, start))
     into = folder / own.name if folder else None

@@ -24,6 +24,7 @@ from flexcage.system.shaft import motion
 from flexcage.system.shaft.data import RIGID_ROTOR, SHAFT_POWERS, Rotor, ShaftData, workspace
 from flexcage.system.time_functions import AMPLITUDE
 
+SOFT = 1e-3  # m, by which a spring of constant force is pressed (an assumption)
 _NONE, _FLAG = types.void, types.boolean
 OTHER_WAY = np.array([-1.0, 1.0, -1.0, 1.0, -1.0])  # of x, y, z, skew, tilt: half a turn about y
 #: What the explicit method asks of a machine: a function, its result and its arguments.
@@ -152,6 +153,18 @@ def release(bearing: BearingSystem) -> None:
     ring.stiffness[:] = ring.damping[:] = 0.0
     bodies.load[1], bodies.axial[1], bodies.moments[:] = 0.0, 0.0, 0.0
     bodies.waves[OF_LOAD, AMPLITUDE] = bodies.waves[OF_AXIAL, AMPLITUDE] = 0.0
+
+
+def let_slide(bearing: BearingSystem, *, force: float, stiffness: float, place: float) -> None:
+    """Let the outer ring slide along its axis before a spring that presses it towards -x with
+    ``force`` [N] where it stands at ``place`` [m], and with as much more a metre towards +x as its
+    ``stiffness`` [N/m]; a constant force is a spring's so soft that it hardly changes. Written into
+    the bearing's own arrays."""
+    ring = bearing.data.model.outer_ring
+    soft = stiffness or force / SOFT
+    ring.free[0] = 1
+    ring.stiffness[0, 0] = soft
+    ring.rest[0] = place - (force / soft if soft else 0.0)
 
 
 def begun(machine: MachineSystem, starts: Sequence[Start], pose: np.ndarray) -> np.ndarray:
