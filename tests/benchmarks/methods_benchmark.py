@@ -12,7 +12,6 @@ from settled import SETTLE, Settled
 
 import flexcage
 from flexcage.core.errors import FlexcageError
-from flexcage.integrate.integration import cheaper
 from flexcage.solve.contract import COUNTS
 
 log = logging.getLogger(__name__)
@@ -58,7 +57,7 @@ def _row(case: flexcage.Case, window: float, repeats: int) -> list[Any]:
     stride, bearing = case.output.vibration_ratio, settled.bearing
     y, yd = settled.restore()
     bound = bearing.stable_step(SETTLE, y, yd)
-    auto = cheaper(bearing, bound, case.solver)
+    auto = bearing.cheaper(bound, case.solver.stable_step)
     cpu, steps, means = {}, {}, {}
     for method in ("explicit", "bdf"):
         settled.integrate(1e-4, stride=stride, method=method)  # kernels are loaded

@@ -199,7 +199,7 @@ def _clocks() -> dict[str, float]:
     timed = BearingSystem.advance
 
     def advance(self: Any, integrator: Any, state: Any, options: Any, *rest: Any) -> Any:
-        self._advance_of(integrator, state, options)  # read from disk: not the integrator's time
+        self.advance_of(integrator, state, options)  # read from disk: not the integrator's time
         return timed(self, integrator, state, options, *rest)
 
     BearingSystem.advance = advance  # type: ignore[method-assign]

@@ -92,4 +92,4 @@ def test_a_static_solution_shows_what_its_text_says(preset, load):
     for row in rows:
         assert row[0] in peaks or all(cell in text for cell in row)
     assert len(rows) > bearing.element_count + 15
-    assert [fold.text for fold in tree.iter("summary")] == ["Stiffness", "Elements"]
+    assert [fold.text for fold in tree.iter("summary")] == ["Stiffness", "Frequencies", "Elements"]
