@@ -33,7 +33,7 @@ def add_commands(commands: Any) -> None:
 
 def _add_run(commands: Any) -> None:
     run = command(commands, "run", run_command, "simulate a case: results, summary, pictures")
-    case_options(run)
+    case_options(run, machines=True)
     run.add_argument("-o", "--out", metavar="DIR", help="run folder (default: runs/NAME)")
     again = run.add_mutually_exclusive_group()
     again.add_argument("--resume", action="store_true", help="go on with a run that stopped")
@@ -136,6 +136,7 @@ def run_command(args: argparse.Namespace) -> int:
 def _run_machine(args: argparse.Namespace) -> int:
     from flexcage.case.read import read_machine
     from flexcage.machine import load_machine
+    from flexcage.machine.motion import check_moves
     from flexcage.machine.writing import OURS
 
     if args.resume:
@@ -147,6 +148,7 @@ def _run_machine(args: argparse.Namespace) -> int:
         count = len(read_machine(Path(args.case))[0].get("bearings", []))
         overrides |= {f"bearings.{k}.cage.model": args.cage for k in range(count)}
     machine = load_machine(Path(args.case), overrides=overrides)
+    check_moves(machine)
     out = Path(args.out) if args.out else Path("runs") / machine.name
     prepare_out(out, resume=False, force=args.force, resumable=False, ours=(*OURS, "case.toml"))
     with while_loading():

@@ -106,9 +106,10 @@ def picture_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--scale", metavar="N", help="factor of the deformation that is drawn")
 
 
-def case_options(parser: argparse.ArgumentParser) -> None:
-    """Add what every command that takes a case understands."""
-    parser.add_argument("case", metavar="CASE", help="case file (.toml)")
+def case_options(parser: argparse.ArgumentParser, *, machines: bool = False) -> None:
+    """Add what every command that takes a case understands; ``machines``: it takes them, too."""
+    what = "file of a case or a machine (.toml)" if machines else "case file (.toml)"
+    parser.add_argument("case", metavar="CASE", help=what)
     parser.add_argument("--cage", choices=("rigid", "flexible"), help="how the cage is modelled")
     parser.add_argument(
         "--set", action="append", metavar="PATH=VALUE", help="change a value of the case"

@@ -10,9 +10,13 @@ from flexcage.machine.spec import BearingPlace, Gravity, Housing, Shaft, Whirl
 SECTION = "machine"
 _SECTIONS = (
     Key("drive", "table", "at rest", "what turns the shaft, as in a case; [drive]"),
-    Key("bearings.bearing, fit, mount, lubricant, contacts, life, static", "tables", "",
+    Key("bearings.bearing, fit, mount, lubricant, contacts, life, heat, static", "tables", "",
         "sections of a bearing's case, which count before those of case, preset or designation; "
         "[bearings.fit] below its [[bearings]]"),
+    Key("bearings.cage, defects, mesh, modes, start, limits, seed", "tables", "",
+        "the same of what its run reads, as [bearings.cage]"),
+    Key("solver, output", "tables", "", "integrator and samples of the machine's run, as in a "
+        "case; [solver]"),
 )  # fmt: skip
 
 
