@@ -12,7 +12,7 @@ from flexcage.cli.files import existing_run, prepare_file, prepare_out
 from flexcage.cli.parser import command, number, picture_options, say, whole_number
 from flexcage.cli.settings import case_from, checked_case_from, look_of
 from flexcage.core.errors import InputError
-from flexcage.core.output_folders import check_either
+from flexcage.core.output_folders import check_either, holds_machine_run
 
 
 def add_commands(commands: Any) -> None:
@@ -248,7 +248,7 @@ def report_command(args: argparse.Namespace) -> int:
     """flexcage report RUN_OR_STUDY: one HTML page of what was computed."""
     folder = Path(args.folder)
     is_study = (folder / "study.toml").is_file() and (folder / "plan.json").is_file()
-    is_machine = (folder / "shaft.nc").is_file() and (folder / "machine.toml").is_file()
+    is_machine = holds_machine_run(folder)
     points = _numbers(args.points) if args.points else None
     if not is_study:
         if not is_machine:

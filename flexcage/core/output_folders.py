@@ -10,6 +10,7 @@ from flexcage.core.locks import LOCK
 from flexcage.core.missing import no_folder
 
 RESULTS = "results.zarr"
+SHAFT_RESULTS = "shaft.nc"  # of a machine's run
 #: Endings that no folder of output has: whoever gives one wants a file.
 _OF_FILES = frozenset(
     ".csv .gif .html .inp .json .mat .msh .mtx .nc .npz .op4 .parquet .pch .pdf .png .pvd .svg "
@@ -41,6 +42,11 @@ def check_study(path: Path) -> None:
     """InputError unless a path is the folder of a study; it says what it is."""
     if not (path / "study.toml").is_file():
         raise InputError(f"{_not_of(path, 'a study')}.", where="study", value=str(path))
+
+
+def holds_machine_run(path: Path) -> bool:
+    """Is this the folder of a machine's run?"""
+    return (path / SHAFT_RESULTS).is_file() and (path / "machine.toml").is_file()
 
 
 def check_either(path: Path) -> None:

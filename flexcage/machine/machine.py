@@ -34,6 +34,7 @@ from flexcage.system.spec import Drive, Mount
 __all__ = ["Machine", "SeatedBearing", "is_machine", "load_machine"]
 
 _OWN_PLACE = {f.name for f in dataclasses.fields(BearingPlace)}
+_TABLES = ("drive", "gravity", "shaft", "housing", "whirl", "solver", "output")
 _NOT_OF_A_BEARING = ("name", "description", "drive", "load")
 #: Sections of a bearing that its run alone reads.
 _OF_MOTION = ("cage", "mesh", "modes", "defects", "start", "limits", "seed")
@@ -69,7 +70,7 @@ class Machine:
     output: OutputOptions = option(OutputOptions(), doc="what is kept of a run")
 
     def __post_init__(self) -> None:
-        for name in ("drive", "gravity", "shaft", "housing", "whirl", "solver", "output"):
+        for name in _TABLES:
             check_spec(getattr(self, name), name)
         for bearing in self.bearings:
             check_spec(bearing.place, f"bearings.{bearing.place.name}")
@@ -125,8 +126,7 @@ class Machine:
     def to_table(self) -> dict[str, Any]:
         """Nested tables of texts with units that read back to an equal machine."""
         table: dict[str, Any] = {"name": self.name, "description": self.description}
-        names = ("drive", "gravity", "shaft", "housing", "whirl", "solver", "output")
-        for name in names if self.housing.body else (n for n in names if n != "housing"):
+        for name in _TABLES if self.housing.body else (n for n in _TABLES if n != "housing"):
             table[name] = to_table(getattr(self, name), named=NAMED)
         rows = []
         for seated in self.bearings:

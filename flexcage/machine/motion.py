@@ -49,15 +49,9 @@ def _find_in_motion(machine: Machine) -> Iterator[tuple[str, str]]:
             "housing.body is given, but in a run each outer ring has a seat of its own; give "
             "[bearings.mount] instead, for now.",
         )
-    if machine.housing.body:
-        yield (
-            "housing.body",
-            "housing.body carries several seats, which a run has not yet; leave [housing] out and "
-            "give bearings a mount of their own, or take 'flexcage static'.",
-        )
     for seated in machine.bearings:
         place, where = seated.place, f"bearings.{seated.place.name}"
-        if seated.case.mount.body and place.facing == "-x":
+        if seated.case.mount.body and place.reversed:
             yield (
                 f"{where}.mount.body",
                 f"{where} faces -x and has a housing of its own (mount.body), which a run cannot "
@@ -81,7 +75,7 @@ def case_in_motion(machine: Machine, seated: SeatedBearing, result: BearingResul
     the shaft presses it with in the static solution."""
     table = {k: v for k, v in seated.table.items() if k not in ("fit",)}
     own = Case.from_table({**table, "name": machine.name}, folder=seated.folder)
-    way = -1.0 if seated.place.facing == "-x" else 1.0
+    way = -1.0 if seated.place.reversed else 1.0
     return dataclasses.replace(
         own,
         name=f"{machine.name}-{seated.place.name}",

@@ -53,7 +53,7 @@ class TurningShaft:
         places = [b.place for b in machine.bearings]
         return Rotor(
             place=np.array([p.position for p in places]) - self.centre,
-            reversed=np.array([p.facing == "-x" for p in places]),
+            reversed=np.array([p.reversed for p in places]),
             offset=np.array([b.offset for b in self._solution.bearings]),
             inertia=np.array([self.mass, gyro[3, 4], own[4, 4]]),
             gravity=machine.gravity.vector,

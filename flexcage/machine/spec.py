@@ -250,10 +250,15 @@ class BearingPlace:
     )
 
     @property
+    def reversed(self) -> bool:
+        """Does it face -x?"""
+        return self.facing == "-x"
+
+    @property
     def mirror(self) -> np.ndarray:
         """Signs (5,) of x, y, z and tilts in the bearing's own axes: one that faces -x is seen in
         a mirror across the axis, which turns x and both tilts round."""
-        sign = float(f"{self.facing[0]}1")
+        sign = -1.0 if self.reversed else 1.0
         return np.array([sign, 1.0, 1.0, sign, sign])
 
 

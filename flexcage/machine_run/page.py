@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from math import pi
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from flexcage.core.errors import EnvironmentLacks
-from flexcage.machine_run.run import MachineRun
+from flexcage.machine_run.run import (
+    OF_BEARINGS,
+    OF_PLACES,
+    BearingFigures,
+    Column,
+    MachineRun,
+    PlaceFigures,
+    shown,
+)
 from flexcage.report.blocks import (
     Block,
     Cell,
@@ -33,27 +40,6 @@ AT_REST = {
     "machine": "Static solution: loads, displacement, bending moment, stress",
     "whirl": "Natural frequencies over the speed, and the unbalance response",
 }
-
-
-@dataclass(frozen=True)
-class _Column:
-    """A column of a table: its head, and the figure and factor that it shows."""
-
-    head: str
-    name: str
-    factor: float = 1.0
-
-
-_OF_BEARINGS = (
-    _Column("radial, N", "radial"), _Column("largest, N", "radial_largest"),
-    _Column("static, N", "static_radial"), _Column("axial, N", "axial"),
-    _Column("least, N", "axial_least"), _Column("largest, N", "axial_largest"),
-    _Column("static, N", "static_axial"), _Column("torque, N mm", "torque", 1e3),
-)  # fmt: skip
-_OF_PLACES = (
-    _Column("at, mm", "position", 1e3), _Column("x, um", "x", 1e6), _Column("y, um", "y", 1e6),
-    _Column("z, um", "z", 1e6), _Column("orbit, um", "orbit", 1e6),
-)  # fmt: skip
 
 
 def write_machine_page(run: MachineRun, path: str | Path) -> Path:
@@ -106,13 +92,13 @@ def _page(run: MachineRun, images: list[Image], lacking: str) -> Page:
             Notices(list(summary.warnings), none="No warnings."),
         ]),
         PageSection("Bearings", [
-            _table("bearing", summary.bearings, _OF_BEARINGS,
+            _table("bearing", summary.bearings, OF_BEARINGS,
                    "What the shaft presses inner rings with: means of the settled part, extremes, "
                    "and the static solution."),
             Text("Their own pages", "\n".join(pages), open=True),
         ]),
         PageSection("Shaft", [
-            _table("place", summary.places, _OF_PLACES,
+            _table("place", summary.places, OF_PLACES,
                    "Means of the axis, and its largest distance from them across it."),
         ]),
         PageSection("Pictures", [drawn]),
@@ -129,14 +115,12 @@ def _designation(run: MachineRun, name: str) -> str:
 
 
 def _table(
-    what: str, rows: Mapping[str, object], columns: tuple[_Column, ...], caption: str
-) -> PageTable:
-    cells = [
-        [Cell(name), *(_cell(getattr(row, c.name) * c.factor) for c in columns)]
-        for name, row in rows.items()
-    ]
+    what: str, rows: Mapping[str, BearingFigures] | Mapping[str, PlaceFigures],
+    columns: tuple[Column, ...], caption: str,
+) -> PageTable:  # fmt: skip
+    cells = [[Cell(name), *(_cell(c.of(row)) for c in columns)] for name, row in rows.items()]
     return PageTable([what, *(c.head for c in columns)], cells, caption)
 
 
 def _cell(value: float) -> Cell:
-    return Cell(f"{value + 0.0:.4g}", value)
+    return Cell(shown(value), value)

@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from flexcage.core.output_folders import SHAFT_RESULTS
 from flexcage.integrate.machine import MachineIntegration
 from flexcage.machine.rotor import TurningShaft
 from flexcage.system.shaft.data import RIGID_ROTOR, SHAFT_POWERS
 
-FILE = "shaft.nc"
 _AXES = ("x", "y", "z")
 _SAME = 1e-4  # m: an end that is so near to a bearing or disc is one place with it
 _COMPONENTS = (*_AXES, "about y", "about z")
@@ -63,18 +63,23 @@ class ShaftRecord:
     @classmethod
     def read(cls, folder: Path) -> ShaftRecord:
         """That of a run's folder."""
-        with xr.open_dataset(folder / FILE, engine="scipy") as found:
+        with xr.open_dataset(folder / SHAFT_RESULTS, engine="scipy") as found:
             return cls(found.load())
 
     def write(self, folder: Path | None) -> None:
         """Write it into a run's folder, as NetCDF."""
         if folder is not None:
-            self.dataset.to_netcdf(folder / FILE, engine="scipy")
+            self.dataset.to_netcdf(folder / SHAFT_RESULTS, engine="scipy")
 
     def settled(self, share: float) -> xr.Dataset:
         """Without the first share of the time."""
-        time = self.dataset["time"].values
-        return self.dataset.isel(time=time > share * time[-1])
+        return without_start(self.dataset, share)
+
+
+def without_start(data: xr.Dataset, share: float) -> xr.Dataset:
+    """A dataset without the first share of its time."""
+    time = data["time"].values
+    return data.isel(time=time > share * time[-1])
 
 
 def _places(shaft: TurningShaft) -> dict[str, float]:

@@ -14,16 +14,17 @@ import xarray as xr
 
 from flexcage._version import __version__
 from flexcage.core.binding import path_of
-from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.core.errors import InputError
 from flexcage.core.listing import PAGE, aligned, wrapped
+from flexcage.core.output_folders import SHAFT_RESULTS, holds_machine_run
 from flexcage.core.timing import Stages
 from flexcage.core.writing import write_text
 from flexcage.machine.machine import Machine, load_machine
 from flexcage.machine.solution import MachineSolution
-from flexcage.machine_run.record import FILE, ShaftRecord, imbalance
+from flexcage.machine.spec import BearingPlace
+from flexcage.machine_run.record import ShaftRecord, imbalance, without_start
 from flexcage.run import Run
 from flexcage.simulate import load_run
-from flexcage.solve.contract import Effort
 
 SUMMARY = "machine_summary"
 _SHARE = 1e-3  # of what the shaft exchanged, that its books may miss
@@ -56,6 +57,44 @@ class PlaceFigures:
     orbit: float
 
 
+@dataclass(frozen=True)
+class Column:
+    """A column of a machine's tables: its head, and the figure and factor that it shows."""
+
+    head: str
+    name: str
+    factor: float = 1.0
+
+    def of(self, row: BearingFigures | PlaceFigures) -> float:
+        """The number that it shows of a row."""
+        return self.factor * float(getattr(row, self.name))
+
+
+OF_BEARINGS = (
+    Column("radial, N", "radial"), Column("largest, N", "radial_largest"),
+    Column("static, N", "static_radial"), Column("axial, N", "axial"),
+    Column("least, N", "axial_least"), Column("largest, N", "axial_largest"),
+    Column("static, N", "static_axial"), Column("torque, N mm", "torque", 1e3),
+)  # fmt: skip
+OF_PLACES = (
+    Column("at, mm", "position", 1e3), Column("x, um", "x", 1e6), Column("y, um", "y", 1e6),
+    Column("z, um", "z", 1e6), Column("orbit, um", "orbit", 1e6),
+)  # fmt: skip
+
+
+def shown(value: float) -> str:
+    """A number of a machine's tables; none is -0."""
+    return f"{value + 0.0:.4g}"
+
+
+def _rows(
+    what: str, rows: Mapping[str, BearingFigures] | Mapping[str, PlaceFigures],
+    columns: tuple[Column, ...],
+) -> list[list[str]]:  # fmt: skip
+    heads = [what, *(c.head for c in columns)]
+    return [heads, *([name, *(shown(c.of(row)) for c in columns)] for name, row in rows.items())]
+
+
 @dataclass(frozen=True, eq=False)
 class MachineSummary:
     """Figures of a machine's run, SI."""
@@ -68,23 +107,12 @@ class MachineSummary:
 
     def text(self, width: int = 0) -> str:
         """Everything as text, in lines of at most ``width`` characters (0: as the terminal)."""
-        heads = ["bearing", "radial, N", "largest", "static", "axial, N", "least", "largest",
-                 "static", "torque, N mm"]  # fmt: skip
-        rows = [heads] + [
-            [name, *(f"{v + 0.0:.4g}" for v in (
-                f.radial, f.radial_largest, f.static_radial, f.axial, f.axial_least,
-                f.axial_largest, f.static_axial, 1e3 * f.torque))]
-            for name, f in self.bearings.items()
-        ]  # fmt: skip
-        places = [["place", "at, mm", "x, um", "y, um", "z, um", "orbit, um"]] + [
-            [name, *(f"{v + 0.0:.4g}" for v in (
-                1e3 * f.position, 1e6 * f.x, 1e6 * f.y, 1e6 * f.z, 1e6 * f.orbit))]
-            for name, f in self.places.items()
-        ]  # fmt: skip
+        bearings = _rows("bearing", self.bearings, OF_BEARINGS)
+        places = _rows("place", self.places, OF_PLACES)
         parts = [
             wrapped("What the shaft presses the inner rings with: means of the settled part, "
                     "extremes, and the static solution", width=width)
-            + "\n" + aligned(rows, sides="lr", heads=True, width=width),
+            + "\n" + aligned(bearings, sides="lr", heads=True, width=width),
             wrapped("The shaft's axis: means, and the largest distance from them across it",
                     width=width)
             + "\n" + aligned(places, sides="lr", heads=True, width=width),
@@ -136,11 +164,10 @@ class MachineRun:
     @cached_property
     def summary(self) -> MachineSummary:
         """Figures of shaft and bearings."""
-        return summary_of(self, None)
+        return summary_of(self)
 
-    def finish(self, effort: Effort) -> MachineRun:
+    def finish(self) -> MachineRun:
         """Complete a run that has come to its end: its summary, stored beside the results."""
-        self.summary = summary_of(self, effort)
         if self.folder is not None:
             write_text(self.folder / f"{SUMMARY}.txt", self.summary.text(PAGE) + "\n")
             text = json.dumps(self.summary.to_dict(), indent=1)
@@ -170,7 +197,7 @@ class MachineRun:
             placed.append(
                 BearingInPlace(
                     place.name, run.dataset, run.case.bearing, place.position,
-                    place.facing == "-x", points, tets,
+                    place.reversed, points, tets,
                 )
             )  # fmt: skip
         shaft = self.machine.shaft
@@ -191,7 +218,7 @@ class MachineRun:
         )  # fmt: skip
 
 
-def summary_of(run: MachineRun, effort: Effort | None) -> MachineSummary:
+def summary_of(run: MachineRun) -> MachineSummary:
     """Figures of a machine's run."""
     settle = run.machine.output.settle
     ds = run.record.settled(settle)
@@ -207,29 +234,28 @@ def summary_of(run: MachineRun, effort: Effort | None) -> MachineSummary:
             f"the shaft's books miss {share:.1e} of what it exchanged, more than {_SHARE:g}; "
             "tighten solver.tolerance."
         )
-    steps = effort.counts["steps"] if effort else 0
+    own = next(iter(run.bearings.values())).summary_at_end  # of the run's one solver
+    steps = own["steps"] if "steps" in own else None
     return MachineSummary(
-        bearings={name: _of_bearing(run, ds, name) for name in run.bearings},
+        bearings={b.place.name: _of_bearing(run, ds, b.place) for b in run.machine.bearings},
         places={str(name): _of_place(ds, str(name)) for name in ds["place"].values},
-        missed=share, steps=steps, warnings=tuple(warnings),
+        missed=share, steps=steps if isinstance(steps, int) else 0, warnings=tuple(warnings),
     )  # fmt: skip
 
 
-def _of_bearing(run: MachineRun, ds: xr.Dataset, name: str) -> BearingFigures:
+def _of_bearing(run: MachineRun, ds: xr.Dataset, place: BearingPlace) -> BearingFigures:
+    name = place.name
     force = ds["force"].sel(bearing=name).transpose("time", "component").values
     radial = np.hypot(force[:, 1], force[:, 2])
     borne = -run.solution[name].force if run.solution else np.full(5, np.nan)
-    held = run[name].dataset["multiplier"].sel(constraint="drive_torque").values
-    turned = (
-        -1.0 if run.machine.bearings[list(run.bearings).index(name)].place.facing == "-x" else 1
-    )
-    settled = held[int(len(held) * run.machine.output.settle) :]
+    own = without_start(run[name].dataset, run.machine.output.settle)
+    held = own["multiplier"].sel(constraint="drive_torque").values
     return BearingFigures(
         radial=float(np.hypot(*force[:, 1:3].mean(axis=0))), radial_largest=float(radial.max()),
         axial=float(force[:, 0].mean()), axial_least=float(force[:, 0].min()),
         axial_largest=float(force[:, 0].max()),
         static_radial=float(np.hypot(borne[1], borne[2])), static_axial=float(borne[0]),
-        torque=turned * float(settled.mean()),
+        torque=(-1.0 if place.reversed else 1.0) * float(held.mean()),
     )  # fmt: skip
 
 
@@ -246,10 +272,10 @@ def _of_place(ds: xr.Dataset, name: str) -> PlaceFigures:
 def load_machine_run(folder: str | Path) -> MachineRun:
     """A machine's stored run. Raises InputError for a folder that holds none."""
     path = path_of(folder, "run")
-    if not (path / FILE).is_file() or not (path / "machine.toml").is_file():
+    if not holds_machine_run(path):
         raise InputError(
-            f"'{path}' is not the folder of a machine's run: it has no {FILE}; 'flexcage run "
-            "MACHINE' makes one.",
+            f"'{path}' is not the folder of a machine's run: it has no {SHAFT_RESULTS}; "
+            "'flexcage run MACHINE' makes one.",
             where="run", value=str(path),
         )  # fmt: skip
     from flexcage.machine.motion import as_it_begins
@@ -261,12 +287,3 @@ def load_machine_run(folder: str | Path) -> MachineRun:
     return MachineRun(
         machine, solve_machine(as_it_begins(machine)), runs, record, path, Stages(None)
     )
-
-
-def draw_or_say(run: MachineRun, folder: Path, **look: Any) -> str:
-    """Draw a run's pictures; why not, in words, where this computer cannot draw."""
-    try:
-        run.draw(folder, **look)
-    except EnvironmentLacks as exc:
-        return str(exc)
-    return ""

@@ -112,7 +112,7 @@ def _simulated(
         own.name: each.run.finish(integration.effort, stress=stress)
         for own, each in zip(solution.bearings, ready, strict=True)
     }
-    return MachineRun(machine, solution, runs, record, folder, clock).finish(integration.effort)
+    return MachineRun(machine, solution, runs, record, folder, clock).finish()
 
 
 def _ready(

@@ -103,6 +103,7 @@ def test_every_bearing_is_a_run_in_a_folder_of_its_own(run):
     assert "moves its inner ring" in load_run(run.folder / "front").case.description
     again = load_machine_run(run.folder)
     assert again.summary.bearings["front"] == run.summary.bearings["front"]
+    assert again.summary.steps == run.summary.steps > 100
     stored = json.loads((run.folder / "machine_summary.json").read_text())
     assert stored["bearings"]["rear"]["radial"] == run.summary.bearings["rear"].radial
 

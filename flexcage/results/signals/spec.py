@@ -82,6 +82,18 @@ def _direction() -> float:
     return quantity("deg", 0.0, doc="azimuth that it reads along, from y towards z")  # type: ignore
 
 
+def _noise(unit: str) -> float:
+    return quantity(  # type: ignore[no-any-return]
+        f"{unit}/Hz^0.5", 0.0, doc="density of its noise", minimum=0.0
+    )
+
+
+def _range(unit: str) -> float:
+    return quantity(  # type: ignore[no-any-return]
+        unit, 0.0, doc="it reads up to this, either way; 0: without end", minimum=0.0
+    )
+
+
 def _axial() -> bool:
     return option(False, doc="does it read along the bearing axis?")  # type: ignore[no-any-return]
 
@@ -97,12 +109,8 @@ class Accelerometer(Sensor):
     )
     direction: float = _direction()
     axial: bool = _axial()
-    noise: float = quantity(  # type: ignore[misc]
-        "m/s^2/Hz^0.5", 0.0, doc="density of its noise", minimum=0.0
-    )
-    range: float = quantity(  # type: ignore[misc]
-        "m/s^2", 0.0, doc="it reads up to this, either way; 0: without end", minimum=0.0
-    )
+    noise: float = _noise("m/s^2")  # type: ignore[misc]
+    range: float = _range("m/s^2")  # type: ignore[misc]
 
     measures: ClassVar[tuple[str, str]] = ("acceleration", "m/s^2")
 
@@ -118,12 +126,8 @@ class Proximity(Sensor):
     )
     direction: float = _direction()
     axial: bool = _axial()
-    noise: float = quantity(  # type: ignore[misc]
-        "um/Hz^0.5", 0.0, doc="density of its noise", minimum=0.0
-    )
-    range: float = quantity(  # type: ignore[misc]
-        "um", 0.0, doc="it reads up to this, either way; 0: without end", minimum=0.0
-    )
+    noise: float = _noise("um")  # type: ignore[misc]
+    range: float = _range("um")  # type: ignore[misc]
 
     measures: ClassVar[tuple[str, str]] = ("displacement", "m")
 
@@ -137,12 +141,8 @@ class Laser(Sensor):
     direction: float = _direction()
     plane: float = quantity("mm", 0.0, doc="axial place of the beam, from the bearing's middle")
     spot: float = quantity("mm", 0.0, doc="width of its spot round the cage", minimum=0.0)
-    noise: float = quantity(  # type: ignore[misc]
-        "um/Hz^0.5", 0.0, doc="density of its noise", minimum=0.0
-    )
-    range: float = quantity(  # type: ignore[misc]
-        "um", 0.0, doc="it reads up to this, either way; 0: without end", minimum=0.0
-    )
+    noise: float = _noise("um")  # type: ignore[misc]
+    range: float = _range("um")  # type: ignore[misc]
 
     measures: ClassVar[tuple[str, str]] = ("displacement", "m")
     place: ClassVar[str] = CAGE
@@ -154,12 +154,8 @@ class Torque(Sensor):
     """Torque of the drive: its power over the inner ring's speed."""
 
     type: str = option("torque", doc="kind of sensor", choices=SENSORS)
-    noise: float = quantity(  # type: ignore[misc]
-        "N*mm/Hz^0.5", 0.0, doc="density of its noise", minimum=0.0
-    )
-    range: float = quantity(  # type: ignore[misc]
-        "N*mm", 0.0, doc="it reads up to this, either way; 0: without end", minimum=0.0
-    )
+    noise: float = _noise("N*mm")  # type: ignore[misc]
+    range: float = _range("N*mm")  # type: ignore[misc]
 
     measures: ClassVar[tuple[str, str]] = ("torque", "N m")
     place: ClassVar[str] = INNER
