@@ -26,6 +26,7 @@ from judging.page import Figure, Found, Page, Table, compose, compose_appendix
 from judging.power import verdicts
 from judging.readings import Reading, readings_of
 from judging.sample import aliases, in_words, sample_of
+from judging.stored import DIGITS, Settings, read_settings, read_starts, settings_of
 
 import flexcage
 from flexcage.case.extensions import forget
@@ -43,7 +44,8 @@ from flexcage.study.own import OWN
 
 At = Callable[[str, str], np.ndarray]  # of an output and a condition: all settings
 QUICK = {"solver.duration": "40 ms"}
-MODULES = ("claims", "outputs", "predict", "figures", "mechanisms", "paper")
+STARTS = "starts.csv"
+MODULES = ("claims", "outputs", "predict", "figures", "mesh_error", "paper")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -101,6 +103,7 @@ class Computed:
     found: Sequence[Found]
     times: Mapping[str, float]  # of processors, by study and map [s]
     out: Path
+    maps: Mapping[str, Settings]  # by file
 
     def of(self, key: str, part: str) -> Found:
         """One finding."""
@@ -178,8 +181,8 @@ def load(folder: Path) -> Paper:
 
 
 def run(paper: Paper, folder: Path, out: Path, *, workers: int, quick: bool) -> None:
-    """Compute what the folders of all readings, samples and studies lack; ``quick``: two starts of
-    40 ms, four settings, no other study."""
+    """Compute what the paper's tables and the folders of all readings, samples and studies lack;
+    ``quick``: two starts of 40 ms, four settings, no other study."""
     changes = QUICK if quick else None
     for file in dict.fromkeys(file for file, _ in paper.readings.values()):
         study = load_study(folder / file, overrides=changes)
@@ -190,8 +193,17 @@ def run(paper: Paper, folder: Path, out: Path, *, workers: int, quick: bool) -> 
         run_study(load_study(folder / file), out=_of(out, file), workers=workers, progress=Progress)
     for file in _maps(paper):
         spec = load_map(folder / file, overrides=changes)
-        spec = replace(spec, count=4, starts=1) if quick else spec
-        run_map(spec, out=_of(out, file), workers=workers, progress=Progress)
+        if quick:
+            few = replace(spec, count=4, starts=1)
+            run_map(few, out=_of(out, file), workers=workers, progress=Progress)
+        elif lacking := read_settings(folder / table_name(file), spec).lacking:
+            run_map(spec, points=lacking, out=_of(out, file), workers=workers, progress=Progress)
+
+
+def table_name(file: str) -> str:
+    """Name of the table of a map's runs."""
+    name = Path(file).stem.removeprefix("map").strip("_")
+    return f"settings_{name}.csv" if name else "settings.csv"
 
 
 def _maps(paper: Paper) -> list[str]:
@@ -212,25 +224,43 @@ def check_designs(paper: Paper, folder: Path) -> list[str]:
     return found
 
 
-def collect(paper: Paper, folder: Path, out: Path) -> Computed:
-    """What the folders hold, judged. Raises InputError where nothing was computed."""
-    maps = {file: MapResults(_of(out, file)) for file in _maps(paper) if _of(out, file).is_dir()}
+def collect(paper: Paper, folder: Path, out: Path, *, quick: bool = False) -> Computed:
+    """What the folder of runs and the paper's own tables hold, judged. Raises InputError where
+    nothing was computed. ``quick``: of four settings, tables aside."""
+    maps = {file: there for file in _maps(paper)
+            if len((there := _runs(folder, out, file, quick)).table)}  # fmt: skip
     if not maps:
-        raise flexcage.InputError(f"'{out}' lacks the paper's samples; compute them first.")
+        raise flexcage.InputError(
+            f"Neither '{out}' nor '{folder}' has the paper's samples; compute them first."
+        )
     specs, samples = {}, {}
     for name, files in paper.samples.items():
-        there = [file for file in files if file in maps]
+        there = [maps[file] for file in files if file in maps]
         if there:
-            specs[name] = load_map(folder / there[0])
-            samples[name] = sample_of(
-                [maps[file] for file in there], specs[name].unknowns, paper.drifting
-            )
-    readings = readings_of(out, paper.readings)
-    studies = [_of(out, f) for f in (*(f for f, _ in paper.readings.values()), *paper.studies)]
-    times = {p.name: _seconds(StudyResults(p)) for p in dict.fromkeys(studies) if p.is_dir()}
+            specs[name] = there[0].spec
+            samples[name] = sample_of(there, paper.drifting)
+    stored = {} if quick else read_starts(folder / STARTS)
+    readings = readings_of(out, paper.readings, stored)
+    times: dict[str, float] = {}
+    for column, (file, _) in paper.readings.items():
+        if column in readings:
+            times[Path(file).stem] = times.get(Path(file).stem, 0.0) + readings[column].seconds
+    times |= {
+        p.name: _seconds(StudyResults(p)) for f in paper.studies if (p := _of(out, f)).is_dir()
+    }
     times |= {Path(file).stem: found.seconds for file, found in maps.items()}
-    computed = Computed(paper, readings, samples, specs, (), times, out)
+    computed = Computed(paper, readings, samples, specs, (), times, out, maps)
     return replace(computed, found=_judged(computed))
+
+
+def _runs(folder: Path, out: Path, file: str, quick: bool) -> Settings:
+    """Runs of a map: of the paper's table, and of the folder of runs, which count first."""
+    spec, path = load_map(folder / file), _of(out, file)
+    if quick:
+        spec = replace(load_map(folder / file, overrides=QUICK), count=4, starts=1)
+        return settings_of(MapResults(path), spec)
+    found = read_settings(folder / table_name(file), spec)
+    return found.with_(settings_of(MapResults(path), spec)) if path.is_dir() else found
 
 
 def _seconds(results: StudyResults) -> float:
@@ -302,7 +332,7 @@ def write(computed: Computed, folder: Path) -> Path:
     page = Page(
         title=paper.title, source=paper.source, summary=draft.summary, hero=draft.hero,
         model=draft.model, known=draft.known, figures=draft.figures, found=computed.found,
-        asks=draft.asks, cost=_cost(computed.times),
+        asks=draft.asks, cost=_cost(computed),
         appendix=(open_, power_table(computed), *draft.appendix), history=draft.history,
         files=(*tables, *draft.files),
     )  # fmt: skip
@@ -315,34 +345,32 @@ def write(computed: Computed, folder: Path) -> Path:
 
 
 def write_tables(computed: Computed, folder: Path) -> list[str]:
-    """Means of all outputs by setting and condition, and of every start of the readings, as CSV."""
-    files = []
-    for name, sample in computed.samples.items():
-        rows = [
-            {"setting": k, "condition": c, **dict(zip(sample.names, sample.shares[k].round(4)))}
-            | {o: v[k] for (o, at), v in sample.means.items() if at == c}
-            for k in range(len(sample.shares)) for c in sample.conditions
-        ]  # fmt: skip
-        files.append(f"settings_{name.replace(' ', '_')}.csv")
-        pd.DataFrame(rows).to_csv(folder / files[-1], index=False, float_format="%.4g")
-    rows = [
-        {"reading": column, "condition": c, "start": k}
-        | {o: reading.values(o, c)[k] for o in reading.results.about.outputs}
-        for column, reading in computed.readings.items() for c in reading.conditions
-        for k in range(len(reading.values(reading.results.about.outputs[0], c)))
-    ]  # fmt: skip
-    pd.DataFrame(rows).to_csv(folder / "starts.csv", index=False, float_format="%.4g")
-    return [*files, "starts.csv"]
+    """All runs of maps and of readings as CSV, from which pages are redrawn and runs go on."""
+    files = [found.write(folder / table_name(file)) for file, found in computed.maps.items()]
+    if computed.readings:
+        tables = {column: reading.table for column, reading in computed.readings.items()}
+        starts = pd.concat(tables, names=["reading"]).reset_index(level=0)
+        starts.to_csv(folder / STARTS, index=False, float_format=DIGITS)
+        files.append(STARTS)
+    return files
 
 
-def _cost(times: Mapping[str, float]) -> str:
-    """Processor time of all runs, version and date, in words."""
+def _cost(computed: Computed) -> str:
+    """Settings, processor time of all runs, version and date, in words."""
+    times = computed.times
     each = ", ".join(f"{name} {seconds / 60.0:,.0f}" for name, seconds in times.items())
     total = sum(times.values()) / 60.0
-    return (
+    physics = set().union(*(found.physics for found in computed.maps.values()))
+    lacking = [
+        f"{len(found.lacking)} of the {len(found.spec.shares)} settings of {file} are not computed."
+        for file, found in computed.maps.items() if found.lacking
+    ]  # fmt: skip
+    return " ".join([
         f"Computed with flexcage {flexcage.__version__}, {date.today():%-d %B %Y}; "
-        f"{total:,.0f} minutes of processor time ({each})."
-    )
+        f"{total:,.0f} minutes of processor time ({each}).",
+        *([f"{len(physics)} versions of the equations computed them."] if len(physics) > 1 else []),
+        *lacking,
+    ])  # fmt: skip
 
 
 def main(arguments: Sequence[str] | None = None) -> Computed:
@@ -355,17 +383,22 @@ def main(arguments: Sequence[str] | None = None) -> Computed:
     parser.add_argument("-o", "--out", type=Path, help="folder of what is computed")
     parser.add_argument("--workers", type=int, default=1, help="processes")
     parser.add_argument("--page", action="store_true", help="write the page from what is there")
+    parser.add_argument(
+        "--tables", action="store_true", help="write the tables only: a later run goes on from them"
+    )
     options = parser.parse_args(arguments)
     folder = options.folder.resolve()
     paper = load(folder)
     out = options.out or Path("runs") / f"{folder.name}{'_quick' * options.quick}"
-    if not options.page:
+    if not (options.page or options.tables):
         run(paper, folder, out, workers=options.workers, quick=options.quick)
-    computed = collect(paper, folder, out)
+    computed = collect(paper, folder, out, quick=options.quick)
     for found in computed.found:
         print(f"{found.claim} {found.part}: {found.said}")
     if options.page:
         print(f"written: {write(computed, folder)}")
+    elif options.tables:
+        print(f"written: {', '.join(write_tables(computed, folder))}")
     return computed
 
 

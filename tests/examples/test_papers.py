@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
+from itertools import product
 from pathlib import Path
 
+import numpy as np
+import pandas as pd
 import pytest
 
 from flexcage.study import load_map, load_study
@@ -95,3 +99,65 @@ def test_every_rule_can_win(paper, maps):
             if found[REPRODUCED] < 5 * ENOUGH:
                 weak[claim.key, part] = dict(found)
     assert not weak
+
+
+@pytest.fixture
+def tables(paper, folder, maps, tmp_path, monkeypatch):
+    """A table of made numbers of each map, by file, in place of the paper's own; the second setting
+    lacks a run, and the third failed."""
+    import repeat
+    from judging.stored import CONDITION, PHYSICS, SECONDS, SETTING, START, Settings
+
+    monkeypatch.setattr(repeat, "table_name", lambda file: str(tmp_path / f"{Path(file).stem}.csv"))
+    monkeypatch.setattr(repeat, "STARTS", str(tmp_path / "starts.csv"))
+    made = {}
+    for name, files in paper.samples.items():
+        for file, spec in zip(files, maps[name]):
+            rng = np.random.default_rng(3)
+            rows = [
+                {SETTING: k, START: s, CONDITION: str(c["label"]), SECONDS: 2.0, PHYSICS: "one"}
+                | {o: np.nan if k == 2 else rng.normal() for o in spec.outputs}
+                for k, s, c in product(range(len(spec.shares)), range(spec.starts), spec.conditions)
+            ]  # fmt: skip
+            runs = pd.DataFrame(rows).drop(len(spec.conditions) * spec.starts)
+            made[file] = Settings(spec, runs)
+            made[file].write(Path(repeat.table_name(file)))
+    return made
+
+
+def test_a_page_is_judged_from_its_tables(tables, paper, folder, tmp_path):
+    import repeat
+    from judging.judge import judge
+    from judging.sample import sample_of
+
+    computed = repeat.collect(paper, folder, tmp_path / "none")
+    first = paper.claims[0]
+    part, finding = next(iter(first.parts.items()))
+    whole = sample_of(
+        [tables[file] for file in paper.samples[paper.sample_for(first)]], paper.drifting
+    )
+    assert computed.of(first.key, part).judged.outcomes == judge(finding, whole).outcomes
+    rows = sum(len(there.table) for there in tables.values())
+    assert sum(computed.times.values()) == pytest.approx(2.0 * rows)
+
+
+def test_runs_go_on_from_the_tables(tables, paper, folder, tmp_path, monkeypatch):
+    import repeat
+
+    asked = {}
+    monkeypatch.setattr(repeat, "run_study", lambda *a, **k: None)
+    monkeypatch.setattr(
+        repeat, "run_map", lambda spec, *, points, out, **k: asked.update({out.name: points})
+    )
+    repeat.run(paper, folder, tmp_path / "out", workers=1, quick=False)
+    assert asked == {Path(file).stem: [1] for file in tables}
+
+
+def test_tables_of_other_settings_are_not_taken(tables):
+    import repeat
+    from judging.stored import read_settings
+
+    for file, made in tables.items():
+        other = replace(made.spec, seed=made.spec.seed + 1)
+        assert read_settings(Path(repeat.table_name(file)), made.spec).lacking == [1]
+        assert len(read_settings(Path(repeat.table_name(file)), other).lacking) == other.count

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 from claims import SPEEDS
+from judging.panels import kept
 from judging.pictures import bands, starts
 from matplotlib.axes import Axes
 from outputs import PLANE, at_plane, axial, form_of, seen
@@ -89,10 +91,10 @@ def rows_of(
     return path.name
 
 
-def motion(computed, folder: Path) -> dict[str, str]:
-    """Figures 6 and 7 of the test's cage, and 8 of the simulation's."""
+def measured_motion(computed, folder: Path) -> str:
+    """Figures 6 and 7: the test's cage, as lasers show it and as the equations solve it."""
     test = Track(computed.readings[CAGE].run(AXIS))
-    found = {"6": rows_of(
+    return rows_of(
         folder / "figure_6_7.png",
         ("Figures 6 and 7: as measured, and the centre as the equations solve it",
          "one start of the test's cage, 10,000 rpm"),
@@ -101,16 +103,19 @@ def motion(computed, folder: Path) -> dict[str, str]:
          ({"7a radial": test.solved}, "7b axial", (test.time, test.axial))),
         reach_of(test.shown[:, :2], test.solved),
         0.6 * float(max(np.ptp(test.shown[:, 2]), np.ptp(test.axial))),
-    )}  # fmt: skip
+    )  # fmt: skip
+
+
+def simulated_motion(computed, folder: Path) -> str:
+    """Figure 8: the simulation's cage."""
     own = Track(computed.readings[SIMULATED].run(AXIS))
-    found["8"] = rows_of(
+    return rows_of(
         folder / "figure_8.png",
         ("Figure 8: as simulated", "one start of the paper's own model as printed, 10,000 rpm"),
         (({"(a) origin, in the lasers' plane": own.origin, "(b) centre": own.centre[:, 1:]},
           "(c) axial", (own.time, own.centre[:, 0])),),
         reach_of(own.origin, own.centre[:, 1:]), 0.6 * max(float(np.ptp(own.centre[:, 0])), 0.01),
     )  # fmt: skip
-    return found
 
 
 def in_space(computed, folder: Path) -> str:
@@ -198,8 +203,11 @@ def draw(computed, folder: Path) -> dict[str, str]:
         s: 100.0 * (table["table_3"]["simulated"][s] / table["table_3"]["theory"][s] - 1.0)
         for s in table["table_3"]["theory"]
     }
-    found = {"sketch": draw_sketch(folder / "sketch.png"), **motion(c, folder)}
-    found["9"] = in_space(c, folder)
+    found = {"sketch": draw_sketch(folder / "sketch.png")}
+    of_runs = {"6": ("figure_6_7", measured_motion), "8": ("figure_8", simulated_motion),
+               "9": ("figure_9_10", in_space)}  # fmt: skip
+    for key, (name, drawn) in of_runs.items():
+        found[key] = kept(folder / f"{name}.png", partial(drawn, c, folder))
     found["11"] = over_speed(folder, "figure_11", "Figure 11: whirl ratio over speed", (
         ("test: by lasers and equations", "ratio", (0.0, None),
          panel(c, TEST, "solved_ratio", two, 1.0)),

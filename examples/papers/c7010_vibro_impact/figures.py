@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 from claims import LOADS, RAMPS, SPEEDS, WAVES
-from judging.panels import Panel, arrow, sheet_of
+from judging.panels import Panel, arrow, sheets_of
 from judging.pictures import bands, overlaid, starts
 from matplotlib.axes import Axes
 from outputs import mass_centre
@@ -201,12 +201,12 @@ def draw(computed, folder: Path) -> dict[str, str]:
                 [ratio(axis, sample, below)], p.angles(names, "Angle, ")]  # fmt: skip
 
     rows = {
-        "5_6": [[Panel("cage speed", "ring speed / rpm", "cage speed / rpm",
+        "5_6": lambda: [[Panel("cage speed", "ring speed / rpm", "cage speed / rpm",
                        p.over("speed", speeds, "speeds", RPM))], p.forces(FEW_SPEEDS, "")],
-        "7_9": block(ALL_SPEEDS, speeds, "speeds", "ring speed / rpm")[1:],
-        "10_13": block(ALL_LOADS, loads, "loads", "radial load / N"),
-        "14_17": block(STEPS, steps, "clearance", "clearance of pockets and races / mm"),
-        "18_25": [p.row(WAVE_NAMES, ring_speed, "ring speed / rpm")[:1],
+        "7_9": lambda: block(ALL_SPEEDS, speeds, "speeds", "ring speed / rpm")[1:],
+        "10_13": lambda: block(ALL_LOADS, loads, "loads", "radial load / N"),
+        "14_17": lambda: block(STEPS, steps, "clearance", "clearance of pockets and races / mm"),
+        "18_25": lambda: [p.row(WAVE_NAMES, ring_speed, "ring speed / rpm")[:1],
                   p.orbits(WAVE_NAMES, "", first), p.orbits(WAVE_NAMES, "", last),
                   [Panel("largest force", "0 sine, 1 triangle, 2 rectangle", "force / N",
                          p.over("peak", {w: float(k) for k, w in enumerate(WAVES)}, "waves", 1.0))],
@@ -217,11 +217,7 @@ def draw(computed, folder: Path) -> dict[str, str]:
                   p.row(RAMP_NAMES, axial, "axial place / um"),
                   p.row(RAMP_NAMES, cage_speed, "cage speed / rpm")],
     }  # fmt: skip
-    found = {"sketch": sketch(folder / "sketch.png")}
-    for key, panels in rows.items():
-        title = f"Figure{'s' * ('_' in key)} {key.replace('_', ' to ')}"
-        found[key] = sheet_of(folder / f"figure_{key}.png", title, panels)
-    return found
+    return {"sketch": sketch(folder / "sketch.png"), **sheets_of(folder, rows)}
 
 
 def sketch(path: Path) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,6 +10,7 @@ from typing import Any
 from matplotlib.axes import Axes
 
 from flexcage.render import sheet
+from judging.readings import NoRuns
 
 WIDE, HIGH, SQUARE, LEFT, TOP, GAP_X, GAP_Y = 440, 220, 230, 110, 110, 105, 115  # px, of panels
 
@@ -48,6 +49,29 @@ def sheet_of(path: Path, title: str, rows: Sequence[Sequence[Panel]]) -> str:
             same_scale(axes)
         sheet.save(figure, path)
     return path.name
+
+
+def sheets_of(
+    folder: Path, rows: Mapping[str, Callable[[], Sequence[Sequence[Panel]]]]
+) -> dict[str, str]:
+    """Sheets of a paper's figures by key, as "7_9" for Figures 7 to 9; names of their files."""
+    found = {}
+    for key, panels in rows.items():
+        path = folder / f"figure_{key}.png"
+        title = f"Figure{'s' * ('_' in key)} {key.replace('_', ' to ')}"
+        found[key] = kept(path, lambda path=path, title=title, panels=panels: sheet_of(
+            path, title, panels()))  # fmt: skip
+    return found
+
+
+def kept(path: Path, draw: Callable[[], str]) -> str:
+    """What ``draw`` makes; where it needs runs that are not there, the picture that is."""
+    try:
+        return draw()
+    except NoRuns:
+        if not path.is_file():
+            raise
+        return path.name
 
 
 def same_scale(axes: Sequence[Axes]) -> None:

@@ -2,39 +2,44 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import pandas as pd
 from scipy.stats import t as student
 
-from flexcage import Run
+from flexcage import InputError, Run
 from flexcage.core.digits import texts_with_margin
 from flexcage.study import StudyResults
+from judging.stored import CONDITION, SECONDS, START, figures_of
+
+
+class NoRuns(InputError):
+    """A picture needs runs, and there is only the table of what they gave."""
 
 
 @dataclass(frozen=True)
 class Reading:
-    """One reading of a study whose axes are called "condition" and "reading"."""
+    """One reading: ``table`` has a row a start that is done (``stored.read_starts``); ``runs`` the
+    study and its planned cases, by condition, where they are there."""
 
     label: str
-    results: StudyResults
-
-    @cached_property
-    def _rows(self) -> dict[str, list]:
-        found: dict[str, list] = {}
-        for row in self.results.rows:
-            labels = row.planned.point.labels
-            if labels.get("reading") == self.label and row.state == "done":
-                found.setdefault(labels["condition"], []).append(row)
-        return found
+    table: pd.DataFrame
+    results: StudyResults | None = None
+    runs: Mapping[str, Sequence[Any]] = field(default_factory=dict)
 
     @property
     def conditions(self) -> tuple[str, ...]:
         """Conditions that have a start."""
-        return tuple(self._rows)
+        return tuple(dict.fromkeys(self.table[CONDITION]))
+
+    @property
+    def seconds(self) -> float:
+        """Processor time [s]."""
+        return float(self.table[SECONDS].sum())
 
     def among(self, names: Mapping[str, str]) -> dict[str, str]:
         """Those of some conditions, with their names, that have a start."""
@@ -42,9 +47,10 @@ class Reading:
 
     def values(self, output: str, condition: str) -> np.ndarray:
         """An output of every start that is done (starts,), SI; NaN where the study lacks it."""
-        own = output in self.results.about.outputs
-        rows = self._rows.get(condition, [])
-        return np.array([float(r.figures[output].value) if own else np.nan for r in rows])
+        rows = self.table[self.table[CONDITION] == condition]
+        if output not in rows:
+            return np.full(len(rows), np.nan)
+        return rows[output].to_numpy(float)
 
     def mean(self, output: str, condition: str, factor: float = 1.0) -> str:
         """Mean of the starts in the digits that their 95 % interval leaves, without it."""
@@ -63,19 +69,39 @@ class Reading:
         return float(found.std(ddof=1) / abs(found.mean())) if len(found) > 1 else np.nan
 
     def run(self, condition: str, start: int = 0) -> Run:
-        """The run of one start."""
-        planned = self._rows[condition][start].planned
+        """The run of one start; NoRuns where only its numbers are there."""
+        if self.results is None or condition not in self.runs:
+            raise NoRuns(f"The runs of '{self.label}' are not there; compute them first.")
+        planned = self.runs[condition][start]
         return self.results.run(planned.number, planned.repetition)
 
 
-def readings_of(out: Path, files: Mapping[str, tuple[str, str]]) -> dict[str, Reading]:
-    """Readings by column, of the studies in the folder ``out`` that are there: each a file and a
-    label."""
+def readings_of(
+    out: Path, files: Mapping[str, tuple[str, str]], stored: Mapping[str, pd.DataFrame]
+) -> dict[str, Reading]:
+    """Readings by column, each of a file and a label: of the studies in the folder ``out``, else of
+    ``stored`` tables, else none."""
     opened: dict[Path, StudyResults] = {}
     found = {}
     for column, (file, label) in files.items():
         path = out / Path(file).stem
         if path.is_dir():
             opened.setdefault(path, StudyResults(path))
-            found[column] = Reading(label, opened[path])
+            found[column] = _of_study(label, opened[path])
+        elif column in stored:
+            found[column] = Reading(label, stored[column])
     return found
+
+
+def _of_study(label: str, results: StudyResults) -> Reading:
+    """The reading ``label`` of a study whose axes are called "condition" and "reading"."""
+    rows, runs = [], {}
+    for row in results.rows:
+        labels = row.planned.point.labels
+        if labels.get("reading") == label and row.state == "done":
+            there = runs.setdefault(labels["condition"], [])
+            rows.append({CONDITION: labels["condition"], START: len(there),
+                         **figures_of(row, results.about.outputs)})  # fmt: skip
+            there.append(row.planned)
+    return Reading(label, pd.DataFrame(rows, columns=None if rows else [CONDITION, SECONDS]),
+                   results, runs)  # fmt: skip

@@ -1,4 +1,4 @@
-"""Samples from the folders of maps, and regions of them in words."""
+"""Samples of what maps gave, and regions of them in words."""
 
 from __future__ import annotations
 
@@ -6,40 +6,37 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from flexcage.study import MapResults
 from flexcage.study.unknowns import Unknown
 from judging.judge import Region, Sample
+from judging.stored import Settings
 
 ALIAS = 0.6  # correlation of two unknowns (or of their middles) from which they are one
 CELLS = 4  # parts of a range by which coverage of pairs is counted
 
 
-def sample_of(
-    maps: Sequence[MapResults], unknowns: Sequence[Unknown], drifting: str = ""
-) -> Sample:
+def sample_of(parts: Sequence[Settings], drifting: str = "") -> Sample:
     """Maps of the same unknowns, conditions and outputs as one sample.
 
     A run whose output ``drifting`` is above 1/2 is not stationary: its numbers depend on how long
     it was followed, so they are left out.
     """
-    first = maps[0]
+    first = parts[0]
     values = {}
     for condition in first.conditions:
-        kept = [_steady(part, condition, drifting) for part in maps]
-        for output in first.study.about.outputs:
+        kept = [_steady(part, condition, drifting) for part in parts]
+        for output in first.spec.outputs:
             found = [np.where(there, part.values(output, condition), np.nan)
-                     for part, there in zip(maps, kept)]  # fmt: skip
+                     for part, there in zip(parts, kept)]  # fmt: skip
             values[output, condition] = np.concatenate(found)
-    shares = np.vstack([part.shares[:, : len(unknowns)] for part in maps])
+    shares = np.vstack([part.spec.shares[:, :-1] for part in parts])
+    unknowns = first.spec.unknowns
     names = [unknown.name for unknown in unknowns]
     return Sample(names, shares, values, first.conditions, cuts_of(unknowns))
 
 
-def _steady(part: MapResults, condition: str, drifting: str) -> np.ndarray:
-    """Which runs (points, starts) are stationary."""
-    if not drifting:
-        return np.ones((len(part.shares), part.about["starts"]), bool)
-    return ~(part.values(drifting, condition) > 0.5)
+def _steady(part: Settings, condition: str, drifting: str) -> np.ndarray | bool:
+    """Which runs (settings, starts) are stationary."""
+    return ~(part.values(drifting, condition) > 0.5) if drifting else True
 
 
 def cuts_of(unknowns: Sequence[Unknown]) -> dict[str, tuple[float, ...]]:

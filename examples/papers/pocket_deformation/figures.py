@@ -11,9 +11,10 @@ from pathlib import Path
 
 import numpy as np
 from claims import BENT1, BENT2, CROSSBEAM, LONGER, SHORTER, SOUND
-from judging.panels import Panel, sheet_of
+from judging.panels import Panel, kept, sheet_of
 from judging.pictures import COLOURS, overlaid
 from matplotlib.axes import Axes
+from mesh_error import pinch
 from outputs import AFTER, AT, BEFORE, PLACES
 
 from flexcage import Run
@@ -73,7 +74,7 @@ def in_a_row(
 ) -> str:  # fmt: skip
     """Panels, one a column, on one scale; the file's name."""
     row = [Panel(READINGS.get(c, c), below, unit, partial(draw, column=c), unit) for c in columns]
-    return sheet_of(path, title, [row])
+    return kept(path, lambda: sheet_of(path, title, [row]))
 
 
 def over_time(computed, folder: Path, name: str, title: str, unit: str, curve, cages) -> str:
@@ -153,4 +154,4 @@ def draw(computed, folder: Path) -> dict[str, str]:
     found["19"] = roller_speeds(
         computed, folder, "figure_19", "Figure 19: roller speeds, side beam", SIDE
     )
-    return found
+    return found | {"pinch": kept(folder / "pinch.png", partial(pinch, computed, folder))}

@@ -9,6 +9,7 @@ from claims import BENT1, BENT2, CLAIMS, LONGER, SCATTER, SHORTER, SOUND
 from figures import MPA, UM, draw
 from judging.judge import REPRODUCED, UNDER
 from judging.page import Figure, Table
+from mesh_error import mesh_errors
 from repeat import Computed, Draft, Paper
 
 MAP = "map"
@@ -143,13 +144,14 @@ def draft(computed: Computed, folder: Path) -> Draft:
     pictures = draw(computed, folder)
     return Draft(
         summary=summary(computed),
-        hero=("pinch.png", "Roller j in its pocket, whose side beam is moved by -0.3 mm"),
+        hero=(pictures["pinch"], "Roller j in its pocket, whose side beam is moved by -0.3 mm"),
         model=MODEL, known=KNOWN, figures=paper_figures(computed, pictures), asks=ASKS,
         history=(
             "Earlier pages judged over ranges that the text excludes, by eight starts that could "
             "decide nothing, and claims of several parts as one. The rules here were written "
             "before any run of map.toml of this version.",
         ),
+        appendix=tuple(filter(None, [mesh_errors(computed)])),
         files=("printed.toml",),
     )  # fmt: skip
 
@@ -160,6 +162,7 @@ PAPER = Paper(
     "Lubricants 2025, 13(11), 495",
     claims=CLAIMS,
     samples={MAP: ("map.toml",)},
+    studies=("mesh.toml",),
     readings={"hertz": ("readings.toml", "hertz"), "adams": ("readings.toml", "adams")},
     drifting="drifts",
     scatter=SCATTER,

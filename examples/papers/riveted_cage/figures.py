@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 from claims import BASE, FORCE, ROOT, SLIP, TILT
+from judging.panels import kept
 from judging.pictures import COLOURS, bands, starts
 from matplotlib.axes import Axes
 from outputs import CLAMP, FRICTION, PLAYS, ROOT_RADIUS, joint
@@ -266,10 +267,11 @@ def draw(computed, folder: Path) -> dict[str, str]:
     thick = (SHEET, "sheet's thickness / mm")
     found = {"sketch": draw_sketch(folder / "sketch.png")}
     if FLEXIBLE in c.readings:
-        found["10"] = joints(c, folder)
-    found["5"] = sweep(c, folder, "figure_5", "Figure 5: over the pocket radius", (
+        found["10"] = kept(folder / "figure_10.png", lambda: joints(c, folder))
+    found["5"] = kept(folder / "figure_5.png", lambda: sweep(
+        c, folder, "figure_5", "Figure 5: over the pocket radius", (
         ("(a) force", FORCE, *radius, CAGE), ("(b) rivets", ROOT, *radius, RIVET),
-        ("(c) slip", SLIP, *radius, CAGE), ("(c) tilt", TILT, *radius, CAGE)))  # fmt: skip
+        ("(c) slip", SLIP, *radius, CAGE), ("(c) tilt", TILT, *radius, CAGE))))  # fmt: skip
     found["6"] = sweep(c, folder, "figure_6_7", "Figures 6 and 7: over width and sheet", (
         ("6a force", FORCE, *width, CAGE), ("6c slip", SLIP, *width, CAGE),
         ("6c tilt", TILT, *width, CAGE), ("7a force", FORCE, *thick, CAGE),

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 from claims import A3, A6, A9, CONSTANT, N2, N3
-from judging.panels import Panel, arrow, sheet_of
+from judging.panels import Panel, arrow, sheets_of
 from judging.pictures import bands, overlaid, starts
 from matplotlib.axes import Axes
 
@@ -162,16 +162,12 @@ def draw(computed, folder: Path) -> dict[str, str]:
                 p.row(names, race_force, "force / N")]  # fmt: skip
 
     rows = {
-        "5": [p.row(still, cage_speed, "cage speed / rpm", whole=True, marked=True)],
-        "6": speeds(NAMES_A, BY_A, "table_6", a), "7_9": cage(NAMES_A, BY_A, a),
-        "10_12": ring(NAMES_A, BY_A, a), "13": speeds(NAMES_N, BY_N, "table_7", n),
-        "14_19": [*cage(NAMES_N, BY_N, n), *ring(NAMES_N, BY_N, n)],
+        "5": lambda: [p.row(still, cage_speed, "cage speed / rpm", whole=True, marked=True)],
+        "6": lambda: speeds(NAMES_A, BY_A, "table_6", a), "7_9": lambda: cage(NAMES_A, BY_A, a),
+        "10_12": lambda: ring(NAMES_A, BY_A, a), "13": lambda: speeds(NAMES_N, BY_N, "table_7", n),
+        "14_19": lambda: [*cage(NAMES_N, BY_N, n), *ring(NAMES_N, BY_N, n)],
     }  # fmt: skip
-    found = {"sketch": sketch(folder / "sketch.png")}
-    for key, panels in rows.items():
-        title = f"Figure{'s' * ('_' in key)} {key.replace('_', ' to ')}"
-        found[key] = sheet_of(folder / f"figure_{key}.png", title, panels)
-    return found
+    return {"sketch": sketch(folder / "sketch.png"), **sheets_of(folder, rows)}
 
 
 def sketch(path: Path) -> str:
