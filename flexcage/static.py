@@ -157,26 +157,32 @@ def write_static(case: StaticCase, solution: StaticSolution, folder: Path) -> li
 
     A machine that cannot draw costs the pictures alone.
     """
+    written = write_static_numbers(case, solution, folder)
+    try:
+        written += draw_static(case, solution, folder)
+    except EnvironmentLacks as exc:
+        log.warning("no picture: %s", exc)
+    return written
+
+
+def write_static_numbers(case: StaticCase, solution: StaticSolution, folder: Path) -> list[Path]:
+    """Write case.toml, static.txt and static.json into a folder; their paths."""
     folder.mkdir(parents=True, exist_ok=True)
     write_text(folder / "case.toml", case.to_toml())
     write_text(folder / "static.txt", solution.table(PAGE) + "\n")
     solution.to_json(folder / "static.json")
-    written = [folder / name for name in ("case.toml", "static.txt", "static.json")]
-    try:
-        from flexcage.render import static_picture
+    return [folder / name for name in ("case.toml", "static.txt", "static.json")]
 
-        e = solution.elements
-        written.append(
-            static_picture(
-                e.azimuth, e.force, e.angle, e.pressure, folder / "static.png",
-                load=solution.load, title=solution.title, note=case.name,
-                speed=solution.speed,
-            )
-        )  # fmt: skip
-        written += [
-            draw_ring(ring, folder / f"{ring.side}_ring.png", name=case.name)
-            for ring in solution.rings
-        ]
-    except EnvironmentLacks as exc:
-        log.warning("no picture: %s", exc)
-    return written
+
+def draw_static(case: StaticCase, solution: StaticSolution, folder: Path) -> list[Path]:
+    """Draw static.png into a folder, and a picture of every ring that bends; their paths."""
+    from flexcage.render import static_picture
+
+    e = solution.elements
+    picture = static_picture(
+        e.azimuth, e.force, e.angle, e.pressure, folder / "static.png", load=solution.load,
+        title=solution.title, note=case.name, speed=solution.speed,
+    )  # fmt: skip
+    rings = [draw_ring(ring, folder / f"{ring.side}_ring.png", name=case.name)
+             for ring in solution.rings]  # fmt: skip
+    return [picture, *rings]

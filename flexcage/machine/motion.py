@@ -17,13 +17,13 @@ from flexcage.case import Case
 from flexcage.core.errors import InputError
 from flexcage.machine.machine import Machine, SeatedBearing
 from flexcage.machine.solution import BearingResult
+from flexcage.machine.state import without_rounding
 from flexcage.system.shaft.problem import OTHER_WAY
 from flexcage.system.spec import Drive, Load
 from flexcage.system.statics.elements import ElementLoads
 from flexcage.system.statics.options import AT_START
 from flexcage.system.statics.solution import StaticSolution
 
-_NOTHING = 1e-6  # of a bearing's load, below which a component is rounding
 # of a vector (5,) that a mirror across x gives, as half a turn about y gives it
 _FROM_MIRROR = np.array([1.0, 1.0, -1.0, -1.0, 1.0])
 
@@ -102,7 +102,7 @@ def _drive(drive: Drive, way: float) -> Drive:
 
 def _load(machine: Machine, seated: SeatedBearing, result: BearingResult, way: float) -> Load:
     force = -result.force * (OTHER_WAY if way < 0.0 else 1.0)
-    force = np.where(np.abs(force) > _NOTHING * np.abs(force).max(), force, 0.0)
+    force = without_rounding(force)
     tilt = "free" if seated.case.bearing.carries_axial_load else "held"
     if seated.case.bearing.axial_refusal(float(force[0])):
         force[0] = 0.0

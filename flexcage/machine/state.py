@@ -16,6 +16,7 @@ from flexcage.machine.spec import Gravity, Whirl
 from flexcage.system.statics.solution import StaticSolution
 
 _NOTHING = 1e-13  # of the largest stiffness: a spring that holds what else nothing does
+_ROUNDING = 1e-6  # of a load's largest component [N, N m]
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,3 +131,8 @@ class MachineState:
         across = np.hypot(self.displacement[:, 1], self.displacement[:, 2])
         k = int(across.argmax())
         return float(across[k]), float(self.position[k])
+
+
+def without_rounding(load: np.ndarray) -> np.ndarray:
+    """A load (5,) whose components that are rounding, beside the largest, are 0."""
+    return np.where(np.abs(load) > _ROUNDING * np.abs(load).max(), load, 0.0)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from math import atan2, hypot, isfinite, pi
 from pathlib import Path
 
@@ -14,15 +14,15 @@ from flexcage.core.errors import EnvironmentLacks
 from flexcage.core.listing import PAGE
 from flexcage.core.writing import write_text
 from flexcage.machine.machine import Machine
-from flexcage.machine.solution import MachineSolution
+from flexcage.machine.solution import BearingResult, MachineSolution
 from flexcage.machine.spec import Disc, Shaft
-from flexcage.machine.whirl import Whirls, over_speeds
-from flexcage.static import write_static
+from flexcage.machine.state import without_rounding
+from flexcage.machine.whirl import over_speeds
+from flexcage.static import draw_static, write_static_numbers
 
 log = logging.getLogger(__name__)
 
 OURS = ("machine.toml", "machine.json")
-_NOTHING = 1e-9  # of the largest force: what counts as none
 _FLAT = 0.15  # of its diameter: width of a disc that has none
 
 
@@ -32,30 +32,49 @@ def write_machine(machine: Machine, solution: MachineSolution, folder: Path) -> 
 
     A computer that cannot draw costs the pictures alone.
     """
-    folder.mkdir(parents=True, exist_ok=True)
-    write_text(folder / "machine.toml", machine.to_toml())
-    write_text(folder / "machine.txt", solution.table(PAGE) + "\n")
-    solution.to_json(folder / "machine.json")
-    written = [folder / name for name in ("machine.toml", "machine.txt", "machine.json")]
-    for seated, own in zip(machine.bearings, solution.bearings):
-        case = as_loaded(seated.case, own.solution.load)
-        written += write_static(case, own.solution, folder / own.name)
-    whirls = over_speeds(machine, solution)
-    if whirls is not None:
-        write_text(folder / "whirl.csv", _as_csv(*whirls))
-        written.append(folder / "whirl.csv")
+    written = write_numbers(machine, solution, folder)
     try:
-        written += _pictures(machine, solution, whirls, folder)
+        written += draw_at_rest(machine, solution, folder)
     except EnvironmentLacks as exc:
         log.warning("no pictures: %s", exc)
     return written
 
 
+def write_numbers(machine: Machine, solution: MachineSolution, folder: Path) -> list[Path]:
+    """What ``write_machine`` writes, but for pictures."""
+    folder.mkdir(parents=True, exist_ok=True)
+    write_text(folder / "machine.toml", machine.to_toml())
+    write_text(folder / "machine.txt", solution.table(PAGE) + "\n")
+    solution.to_json(folder / "machine.json")
+    written = [folder / name for name in ("machine.toml", "machine.txt", "machine.json")]
+    for case, own in _loaded(machine, solution):
+        written += write_static_numbers(case, own.solution, folder / own.name)
+    whirls = over_speeds(machine, solution)
+    if whirls is not None:
+        write_text(folder / "whirl.csv", _as_csv(*whirls))
+        written.append(folder / "whirl.csv")
+    return written
+
+
+def draw_at_rest(machine: Machine, solution: MachineSolution, folder: Path) -> list[Path]:
+    """Draw machine.png and whirl.png into a folder, and every bearing's static.png into its own."""
+    made = draw_whole(machine, solution, folder)
+    for case, own in _loaded(machine, solution):
+        made += draw_static(case, own.solution, folder / own.name)
+    return made
+
+
+def _loaded(
+    machine: Machine, solution: MachineSolution
+) -> Iterator[tuple[StaticCase, BearingResult]]:
+    for seated, own in zip(machine.bearings, solution.bearings):
+        yield as_loaded(seated.case, own.solution.load), own
+
+
 def as_loaded(case: StaticCase, load: np.ndarray) -> StaticCase:
     """A bearing's case under the load (5,) that it bears in the machine, in its own axes, so that
     it can be solved alone."""
-    clean = np.where(np.abs(load) > _NOTHING * max(float(np.abs(load[:3]).max()), 1e-12), load, 0.0)
-    x, y, z, about_y, about_z = (float(v) for v in clean)
+    x, y, z, about_y, about_z = map(float, without_rounding(load))
     return case.replace({
         "load.axial": x, "load.radial": hypot(y, z), "load.direction": atan2(z, y),
         "load.moment_y": about_y, "load.moment_z": about_z, "load.tilt": "free",
@@ -80,14 +99,13 @@ def _as_csv(
     return "\n".join(lines) + "\n"
 
 
-def _pictures(
-    machine: Machine, solution: MachineSolution, whirls: Whirls | None, folder: Path
-) -> list[Path]:
+def draw_whole(machine: Machine, solution: MachineSolution, folder: Path) -> list[Path]:
+    """Draw machine.png and, of a shaft with mass that turns, whirl.png into a folder."""
     from flexcage.render.machine_pictures import whirl_picture
 
-    speed = f"{solution.speed * 30.0 / pi:.5g} rpm"
     made = [draw_machine(machine, solution, folder / "machine.png")]
-    if whirls is not None:
+    if (whirls := over_speeds(machine, solution)) is not None:
+        speed = f"{solution.speed * 30.0 / pi:.5g} rpm"
         anew = machine.whirl.stiffness == "each_speed"
         note = f"bearings' stiffness at the machine's load and {'each speed' if anew else speed}"
         made.append(whirl_picture(*whirls, folder / "whirl.png", title=f"{machine.name}: whirl",

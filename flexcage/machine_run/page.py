@@ -8,6 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from flexcage.core.errors import EnvironmentLacks
+from flexcage.machine.writing import draw_whole
 from flexcage.machine_run.run import (
     OF_BEARINGS,
     OF_PLACES,
@@ -63,10 +64,17 @@ def _pictures(run: MachineRun, spare: Path) -> list[Image]:
         stored = folder / "images" / f"{name}.png" if folder else spare
         picture = stored if stored.is_file() else draw[name](spare / f"{name}.png")
         found.append(Image(picture, caption, wide=True))
-    for name, caption in AT_REST.items():
-        if folder and (folder / f"{name}.png").is_file():
-            found.append(Image(folder / f"{name}.png", caption))
-    return found
+    return found + [Image(file, AT_REST[file.stem]) for file in _at_rest(run, spare)]
+
+
+def _at_rest(run: MachineRun, spare: Path) -> list[Path]:
+    """Pictures of the static solution: those that its folder holds, else drawn for the page."""
+    stored = [run.folder / f"{name}.png" for name in AT_REST] if run.folder else []
+    found = [file for file in stored if file.is_file()]
+    if found or run.solution is None:
+        return found
+    (spare / "rest").mkdir()
+    return draw_whole(run.machine, run.solution, spare / "rest")
 
 
 def _page(run: MachineRun, images: list[Image], lacking: str) -> Page:

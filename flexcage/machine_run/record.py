@@ -11,6 +11,7 @@ import xarray as xr
 from flexcage.core.output_folders import SHAFT_RESULTS
 from flexcage.integrate.machine import MachineIntegration
 from flexcage.machine.rotor import TurningShaft
+from flexcage.results.metrics import settled
 from flexcage.system.shaft.data import RIGID_ROTOR, SHAFT_POWERS
 
 _AXES = ("x", "y", "z")
@@ -73,13 +74,7 @@ class ShaftRecord:
 
     def settled(self, share: float) -> xr.Dataset:
         """Without the first share of the time."""
-        return without_start(self.dataset, share)
-
-
-def without_start(data: xr.Dataset, share: float) -> xr.Dataset:
-    """A dataset without the first share of its time."""
-    time = data["time"].values
-    return data.isel(time=time > share * time[-1])
+        return settled(self.dataset, share)
 
 
 def _places(shaft: TurningShaft) -> dict[str, float]:

@@ -22,7 +22,9 @@ from flexcage.core.writing import write_text
 from flexcage.machine.machine import Machine, load_machine
 from flexcage.machine.solution import MachineSolution
 from flexcage.machine.spec import BearingPlace
-from flexcage.machine_run.record import ShaftRecord, imbalance, without_start
+from flexcage.machine.writing import draw_at_rest
+from flexcage.machine_run.record import ShaftRecord, imbalance
+from flexcage.results.metrics import settled
 from flexcage.run import Run
 from flexcage.simulate import load_run
 
@@ -176,10 +178,13 @@ class MachineRun:
 
     def draw(self, folder: str | Path, **look: Any) -> list[Path]:
         """Draw the machine, and the shaft's orbits and forces, into ``folder``, and each bearing's
-        pictures into a folder there; ``look`` as ``Run.draw`` takes it. Paths of the files."""
+        pictures into a folder there; those of the static solution go into the run's own folder.
+        ``look`` as ``Run.draw`` takes it. Paths of the files."""
         into = path_of(folder, "folder")
         into.mkdir(parents=True, exist_ok=True)
         made = [self.draw_machine(into / "machine.png"), self.draw_shaft(into / "shaft.png")]
+        if self.folder is not None and self.solution is not None:
+            made += draw_at_rest(self.machine, self.solution, self.folder)
         for name, run in self.bearings.items():
             made += run.draw(into / name, **look)
         return made
@@ -248,7 +253,7 @@ def _of_bearing(run: MachineRun, ds: xr.Dataset, place: BearingPlace) -> Bearing
     force = ds["force"].sel(bearing=name).transpose("time", "component").values
     radial = np.hypot(force[:, 1], force[:, 2])
     borne = -run.solution[name].force if run.solution else np.full(5, np.nan)
-    own = without_start(run[name].dataset, run.machine.output.settle)
+    own = settled(run[name].dataset, run.machine.output.settle)
     held = own["multiplier"].sel(constraint="drive_torque").values
     return BearingFigures(
         radial=float(np.hypot(*force[:, 1:3].mean(axis=0))), radial_largest=float(radial.max()),

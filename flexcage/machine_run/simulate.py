@@ -32,7 +32,7 @@ from flexcage.machine.motion import (
 from flexcage.machine.rotor import TurningShaft
 from flexcage.machine.solution import BearingResult
 from flexcage.machine.solve import solve_machine
-from flexcage.machine.writing import write_machine
+from flexcage.machine.writing import write_numbers
 from flexcage.machine_run.record import ShaftRecord
 from flexcage.machine_run.run import MachineRun
 from flexcage.results.store import MemoryRunStore
@@ -84,7 +84,7 @@ def _simulated(
     clock = Stages(progress)
     solution = clock("static", solve_machine, as_it_begins(machine))
     if folder is not None:
-        write_machine(machine, solution, folder)
+        write_numbers(machine, solution, folder)
     shaft = TurningShaft(machine, solution)
     ready = [
         _ready(machine, k, own, folder, clock, stress=stress)

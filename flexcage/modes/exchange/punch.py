@@ -88,7 +88,7 @@ def write(body: ReducedBody, path: Path) -> None:
 
     module = _module()
     stiffness, mass = body.dense()
-    labels = pandas.MultiIndex.from_arrays(labels_of(body).T, names=["id", "dof"])
+    labels = pandas.MultiIndex.from_arrays(list(labels_of(body).T), names=["id", "dof"])
     frame = {
         name: pandas.DataFrame(matrix, index=labels, columns=labels)
         for name, matrix in (("KAAX", stiffness), ("MAAX", mass))

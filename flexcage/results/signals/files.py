@@ -98,7 +98,7 @@ def _frame(part: xarray.Dataset) -> pandas.DataFrame:
     for name, signal in part.data_vars.items():
         columns[f"{name} ({signal.attrs['units']})"] = signal.values
     frame = pd.DataFrame(columns)
-    frame.attrs = about(part)
+    frame.attrs.update(about(part))
     return frame
 
 
