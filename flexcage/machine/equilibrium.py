@@ -18,7 +18,7 @@ import numpy as np
 from flexcage.core.errors import FlexcageError, InputError, RunFailed
 from flexcage.machine.seating import Seated
 from flexcage.machine.shaft import ShaftModel
-from flexcage.system.statics.equilibrium import Posture
+from flexcage.system.statics.equilibrium import Posture, continued
 
 _CLOSE = 1e-10  # unbalanced force, as a share of the loads
 _ROUNDING = 1e-14  # of the stiff parts' forces: what is left of their differences
@@ -26,7 +26,6 @@ _ITERATIONS = 120
 _FEW, _ENOUGH = 16, 1e-4
 _FAR = 40.0  # of the elements' scale: a shaft so far away has fallen out of its bearings
 _AWAY = 0.05  # m: and so may one whose outer rings slide along with it
-_PARTS = (1, 3, 9)  # in which speed's effects come in
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,16 +143,13 @@ def balance(m: Together) -> Standing:
         raise _no_equilibrium(m, still)
     if all(b.elements.conservative for b in m.bearings):
         return still
-    for parts in _PARTS:
-        found = still
-        for k in range(parts):
-            share = (k + 1) / parts
-            with np.errstate(invalid="ignore", divide="ignore"):  # where the search goes astray
-                found = _march(m, standing(m, found.z, found, share), share)
-            if found.unbalanced > 1.0:
-                break
-        else:
-            return found
+
+    def onwards(now: Standing, share: float) -> Standing:
+        return _march(m, standing(m, now.z, now, share), share)
+
+    found = continued(still, onwards, 1.0)
+    if found.unbalanced <= 1.0:
+        return found
     raise RunFailed(
         f"no equilibrium of the machine was found at this speed: {found.share_left:.1e} of its "
         "loads stays unbalanced; is the speed too high for the preload?"

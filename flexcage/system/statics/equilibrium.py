@@ -12,9 +12,10 @@ elements are sought at which races, bent by the elements' forces, lie where the 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
@@ -112,6 +113,16 @@ class Posture:
     outer: np.ndarray = field(default_factory=lambda: np.zeros(5))
 
 
+class Balanced(Protocol):
+    """A state of a search for equilibrium: what is unbalanced of it."""
+
+    @property
+    def unbalanced(self) -> float: ...
+
+
+State = TypeVar("State", bound=Balanced)
+
+
 def balance(problem: Problem) -> Posture:
     """Posture in equilibrium. Raises InputError if the load leaves none, RunFailed if none is
     found."""
@@ -120,22 +131,36 @@ def balance(problem: Problem) -> Posture:
         raise _no_equilibrium(problem, still)
     if problem.elements.conservative:
         return still
-    for parts in _PARTS:
-        found = still
-        for k in range(parts):
-            share = (k + 1) / parts
-            with np.errstate(invalid="ignore", divide="ignore"):  # where the search goes astray
-                found = _march(problem, posture_at(problem, found.ring, found, share), share)
-            if found.unbalanced > _CLOSE:
-                break
-        else:
-            return found
+
+    def onwards(now: Posture, share: float) -> Posture:
+        return _march(problem, posture_at(problem, now.ring, now, share), share)
+
+    found = continued(still, onwards, _CLOSE)
+    if found.unbalanced <= _CLOSE:
+        return found
     axial, *radial = problem.load[:3]
     little = ", or the axial load too small for the radial one" if axial < np.hypot(*radial) else ""
     raise RunFailed(
         f"no equilibrium was found at this speed: {found.unbalanced:.1e} of the load stays "
         f"unbalanced; is the speed too high for the load{little}?"
     )
+
+
+def continued(still: State, onwards: Callable[[State, float], State], close: float) -> State:
+    """From equilibrium without what has no potential to all of it: at once, or in more and more
+    parts. ``onwards`` takes a state to a share of it; where none leads there, the state given back
+    is not balanced to ``close``."""
+    found = still
+    for parts in _PARTS:
+        found = still
+        for k in range(parts):
+            with np.errstate(invalid="ignore", divide="ignore"):  # where the search goes astray
+                found = onwards(found, (k + 1) / parts)
+            if found.unbalanced > close:
+                break
+        else:
+            break
+    return found
 
 
 def tangent(problem: Problem, posture: Posture) -> np.ndarray:
