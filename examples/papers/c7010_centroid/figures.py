@@ -166,13 +166,13 @@ def over_speed(folder: Path, name: str, title: str, panels: Sequence[Panel]) -> 
                 draw(ax)
                 ax.set(xlabel="inner ring / rpm", ylabel=unit, xlim=(3600, 11400))
                 ax.set_title(word, loc="left", fontsize=10)
-                ax.legend(loc="best", fontsize=8, frameon=False)
+                ax.legend(loc="upper center", ncols=2, fontsize=8, frameon=False)
                 axes.append(ax)
-            low, high_ = zip(*(ax.get_ylim() for ax in axes))
-            ends = panels[k][2]
+            low, top = zip(*(ax.get_ylim() for ax in axes))
+            begin, end = panels[k][2]
+            least, most = min(low) if begin is None else begin, max(top) if end is None else end
             for ax in axes:
-                ax.set_ylim(min(low) if ends[0] is None else ends[0],
-                            max(high_) if ends[1] is None else ends[1])  # fmt: skip
+                ax.set_ylim(least, most + 0.25 * (most - least))  # room for the legend
         sheet.save(figure, folder / f"{name}.png")
     return f"{name}.png"
 

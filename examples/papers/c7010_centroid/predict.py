@@ -2,7 +2,8 @@
 
     python examples/papers/c7010_centroid/predict.py -o runs/c7010_centroid
 
-For the measured (solved) and for the simulated (centroid) difference of whirl radii D alike:
+For the measured (solved by the paper's equations) and the simulated (centroid) difference of whirl
+radii D alike, each with the map's own:
 
     ln D(n) = m(n) + d(n)
 
@@ -79,16 +80,16 @@ def predictions(computed, printed) -> list[dict]:
     """An entry for every row of the paper that is not shown."""
     rng, rows = np.random.default_rng(SEED), []
     tables = (
-        ("4", "test", "solved", "measured", "solved",
+        ("4", "test", "solved", "solved", "measured", "solved",
          ("measured vortex radius difference at this inner speed, rpm",
           "the same after the paper's correction")),
-        ("5", "model", "centroid", "origin", "centroid",
+        ("5", "model", "difference", "centroid", "origin", "centroid",
          ("simulated difference at the measuring origin", "simulated difference of the centroid")),
     )  # fmt: skip
-    for table, column, row, raw, plain, meanings in tables:
+    for table, column, output, row, raw, plain, meanings in tables:
         numbers = printed[f"table_{table}"]
         means = computed.samples[column].means
-        found = {n: means["difference", f"{n:.0f}"] * 1e3 for n in (*SHOWN, *AHEAD)}
+        found = {n: means[output, f"{n:.0f}"] * 1e3 for n in (*SHOWN, *AHEAD)}
         whole = np.isfinite(list(found.values())).all(axis=0)
         at_shown, ahead = (
             np.column_stack([found[n][whole] for n in speeds]) for speeds in (SHOWN, AHEAD)
@@ -113,7 +114,7 @@ def main() -> None:
 
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("-o", "--out", type=Path, default=Path("runs/c7010_centroid"))
-    computed = repeat.collect(repeat.load(HERE), parser.parse_args().out)
+    computed = repeat.collect(repeat.load(HERE), HERE, parser.parse_args().out)
     from figures import PRINTED
 
     text = json.dumps(predictions(computed, PRINTED), indent=1)

@@ -155,12 +155,23 @@ def _region(found: Found) -> str:
 
 
 def _figure(figure: Figure, by_claim: dict[str, list[Found]]) -> str:
-    verdicts = [f"{found.part}: {found.short}" for key in figure.claims for found in by_claim[key]]
+    found = [one for key in figure.claims for one in by_claim[key]]
     lines = [f"### {figure.title}", wrapped(f"*The paper:* {figure.says}")]
     lines += [f"![{figure.title}]({figure.picture})"] if figure.picture else []
-    found = f"**{'; '.join(verdicts)}.** " if verdicts else ""
-    lines += [wrapped(found + figure.mechanism)]
+    lines += [wrapped(" ".join([*_by_verdict(found), figure.mechanism]))]
     return "\n\n".join(lines)
+
+
+def _by_verdict(found: Sequence[Found]) -> list[str]:
+    """Sentences: each verdict with the findings that have it."""
+    sentences = []
+    for verdict, mark in MARKS.items():
+        parts = [f.part + (f" ({f.condition})" if f.condition and verdict == UNDER else "")
+                 for f in found if f.judged.verdict == verdict]  # fmt: skip
+        if parts:
+            word = "reproduced under a condition" if verdict == UNDER else verdict
+            sentences.append(f"**{mark} {word.capitalize()}:** {'; '.join(parts)}.")
+    return sentences
 
 
 def _claims(found: Sequence[Found]) -> str:

@@ -219,7 +219,7 @@ def main() -> None:
 
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("-o", "--out", type=Path, default=Path("runs/riveted_cage"))
-    computed = repeat.collect(repeat.load(HERE), parser.parse_args().out)
+    computed = repeat.collect(repeat.load(HERE), HERE, parser.parse_args().out)
     from figures import PRINTED
 
     rows = predictions(computed, PRINTED)
