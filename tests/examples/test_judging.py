@@ -201,7 +201,7 @@ def test_a_page_goes_figure_by_figure_and_its_appendix_has_the_statistics():
 
     text = compose(page(history=["a limit"]))
     parts = ("# A paper", "What it says", "(hero.png)", "| 1 | 2 |", "### Figure 1",
-             "*The paper:* it rises", "(a.png)", "**rises: ✓ reproduced.** because it must",
+             "*The paper:* it rises", "(a.png)", "**✓ Reproduced:** rises. because it must",
              "| 1 | it rises (Figure 1) | ✓ rises |", "- why?",
              "1 minute")  # fmt: skip
     places = [text.index(part) for part in parts]

@@ -51,16 +51,11 @@ class Found:
 
     @property
     def said(self) -> str:
-        """The verdict in a few words."""
-        untestable = self.judged.verdict == UNTESTABLE and self.judged.reason
-        return self.short + (f": {self.judged.reason}" if untestable else "")
-
-    @property
-    def short(self) -> str:
-        """The same, without the reason of what is not testable."""
+        """The verdict in a few words, with the reason of what is not testable."""
         verdict = self.judged.verdict
         under = f" {self.condition}" if verdict == UNDER else ""
-        return f"{MARKS[verdict]} {verdict}{under}"
+        why = f": {self.judged.reason}" if verdict == UNTESTABLE and self.judged.reason else ""
+        return f"{MARKS[verdict]} {verdict}{under}{why}"
 
 
 @dataclass(frozen=True)
