@@ -7,10 +7,18 @@ import scipy.linalg as la
 from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation
 
+from flexcage.compiling import build_bearing
+from flexcage.contacts.evaluation import REPORT
+from flexcage.core.timing import Stages
 from flexcage.machine import load_machine
+from flexcage.machine.motion import as_it_begins, case_in_motion, starting_point
+from flexcage.machine.moving_seats import MovingSeats
+from flexcage.machine.solve import solve_machine
 from flexcage.machine_run import simulate_machine
 from flexcage.modes.exchange.body import ReducedBody
 from flexcage.modes.exchange.formats import write_body
+from flexcage.stages import made_cage
+from flexcage.system.start import find_start
 
 PLACES = {"front": 0.1, "rear": 0.16}  # m
 FIVE = [0, 1, 2, 4, 5]  # x, y, z and turns about y and z, of six
@@ -185,3 +193,76 @@ def test_a_housing_whose_seats_do_not_couple_is_one_for_each(tmp_path):
     for ways in (slice(0, 3), slice(4, 6), slice(6, 9), slice(10, 12)):
         begun = moved(two)[0, ways]
         np.testing.assert_allclose(begun, wanted[ways], atol=1e-3 * np.abs(wanted[ways]).max())
+
+
+def with_rollers(design, rpm, ms, *, housing=None, force=0, facing="+x", stiffness=0):
+    """A ball bearing and, 100 mm away, a roller bearing whose outer ring may slide."""
+    sprung = {"spring_force": f"{force} N", "spring_stiffness": f"{stiffness} N/um"}
+    rows = [
+        {"name": "front", "designation": "7206C" if force else "6206", "position": "100 mm",
+         "facing": "-x" if facing == "+x" else "+x", "cage": {"model": "rigid"}},
+        {"name": "rear", "designation": design, "position": "160 mm", "facing": facing,
+         "cage": {"model": "rigid"},
+         **({"axial_seat": "floating", **sprung} if force else {})},
+    ]  # fmt: skip
+    return load_machine({
+        "drive": {"speed": f"{rpm} rpm"},
+        "gravity": {"acceleration": "0 m/s^2"},
+        "shaft": {"kind": "rigid", "sections": [{"length": "250 mm", "diameter": "30 mm"}],
+                  "loads": [{"position": "130 mm", "force": ["0 N", "1400 N", "-300 N"]}]},
+        **({"housing": housing} if housing else {}),
+        "bearings": rows,
+        "solver": {"duration": f"{ms} ms"},
+        "output": {"block": 50},
+    })  # fmt: skip
+
+
+@pytest.mark.parametrize("facing", ["+x", "-x"])
+def test_a_roller_bearing_begins_in_balance_with_its_spring(facing):
+    """Its outer ring, held while rollers find their places, is then moved to where the static
+    solution has it; ribs press it with the spring's force."""
+    rollers = with_rollers("NJ 206", 3000, 1, force=100, facing=facing, stiffness=2)
+    solution = solve_machine(as_it_begins(rollers))
+    seats, own = MovingSeats(rollers, solution), solution["rear"]
+    case = case_in_motion(rollers, rollers.bearings[1], own)
+    mesh, cage = made_cage(case, Stages(None))
+    bearing = build_bearing(case, mesh, cage, seat=seats.compliance(1))
+    seats.begin(1, bearing)
+    start = find_start(bearing, limit_force=case.limits.assembly_force)
+    seats.release(1, bearing)
+    start = seats.moved(1, bearing, start)
+    q, wanted = bearing.layout.q(start.y), starting_point(own)
+    assert q["outer"][0] == pytest.approx(wanted.outer[0], abs=1e-15)
+    assert q["inner"][0] == pytest.approx(wanted.displacement[0], abs=2e-6)  # without its tilt
+    ring = bearing.data.model.outer_ring
+    sprung = ring.stiffness[0, 0] * (q["outer"][0] - ring.rest[0])
+    assert sprung == pytest.approx(own.solution.load[0], rel=1e-9)
+    bearing.residual(0.0, start.y, start.yd, REPORT)
+    assert bearing.data.work.report.outer_wrench[0] == pytest.approx(sprung, rel=0.02)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("design", "facing"), [("NJ 206", "-x"), ("NUP 206", "+x")])
+def test_a_spring_presses_a_roller_bearing_that_turns(design, facing):
+    run = simulate_machine(with_rollers(design, 3000, 6, force=150, facing=facing), stress=False)
+    way = 1.0 if facing == "+x" else -1.0
+    rear, front = (run.summary.bearings[name] for name in ("rear", "front"))
+    assert way * rear.axial == pytest.approx(150.0, rel=0.02)
+    assert rear.axial == pytest.approx(-front.axial, rel=0.02)
+    slid = run["rear"].dataset["outer_position"].sel(axis="x").values
+    at = run.solution["rear"].solution.outer[0]
+    assert slid[0] == pytest.approx(at, abs=1e-7)
+    assert slid.mean() == pytest.approx(at, abs=2e-6)  # rollers tilt as they did not at first
+    assert np.ptp(slid) > 1e-8
+    assert all(run[name].summary["energy_audit"] == "passed" for name in PLACES)
+
+
+@pytest.mark.slow
+def test_rollers_in_one_housing_with_balls_stay_where_the_static_solution_has_them(tmp_path):
+    housing = body(compliance_of_both(coupled=True), PLACES.values(), tmp_path / "both.npz")
+    rollers = with_rollers("NU 206", 60, 2, housing=housing, facing="-x")
+    run = simulate_machine(rollers, stress=False)
+    wanted, found = static_places(run), moved(run)
+    for ways in (slice(0, 3), slice(4, 6), slice(6, 9), slice(10, 12)):
+        size = np.abs(wanted[ways]).max()
+        assert np.abs(found[:, ways] - wanted[ways]).max() < 0.01 * size, ways
