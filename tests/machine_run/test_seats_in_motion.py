@@ -177,7 +177,8 @@ def test_rings_in_one_housing_stay_where_the_static_solution_has_them(rear, tmp_
         assert np.abs(found[:, ways].mean(axis=0) - wanted[ways]).max() < 4e-3 * size, ways
 
 
-def test_a_housing_whose_seats_do_not_couple_is_one_for_each(tmp_path):
+@pytest.mark.parametrize("rear", [{}, SLIDES], ids=["fixed", "slides"])
+def test_a_housing_whose_seats_do_not_couple_is_one_for_each(rear, tmp_path):
     """The rear bearing faces -x; its own housing is written in the machine's axes, too."""
     apart = compliance_of_both(coupled=False)
     housing = body(apart, PLACES.values(), tmp_path / "both.npz")
@@ -185,8 +186,8 @@ def test_a_housing_whose_seats_do_not_couple_is_one_for_each(tmp_path):
         name: body(apart[own, own], [0.0], tmp_path / f"{name}.npz")
         for name, own in (("front", slice(0, 6)), ("rear", slice(6, 12)))
     }
-    one = simulate_machine(machine(3000, 1, housing=housing), stress=False)
-    two = simulate_machine(machine(3000, 1, mounts=mounts), stress=False)
+    one = simulate_machine(machine(3000, 1, housing=housing, **rear), stress=False)
+    two = simulate_machine(machine(3000, 1, mounts=mounts, **rear), stress=False)
     for found, wanted in ((moved(one), moved(two)), (pressed(one), pressed(two))):
         np.testing.assert_allclose(found, wanted, atol=1e-10 * np.abs(wanted).max(axis=0).max())
     wanted = static_places(two)
