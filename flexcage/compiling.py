@@ -9,6 +9,8 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from flexcage.case import Case, load_case, load_extension
 from flexcage.case.extensions import sources
 from flexcage.case.sections import MotionSections
@@ -109,13 +111,15 @@ def build_bearing(
     mesh: CageMesh | None,
     cage: CageReduction | None,
     compiling: Compiling | None = None,
+    *,
+    seat: np.ndarray | None = None,
 ) -> BearingSystem:
     """Bodies, contacts and compiled equations of motion.
 
     ``compiling`` is what ``begin_compiling`` began; without it, this process compiles alone what is
-    not on disk yet.
+    not on disk yet. ``seat`` as ``bearing_in_motion`` takes it.
     """
-    bearing = bearing_in_motion(specs, mesh, cage)
+    bearing = bearing_in_motion(specs, mesh, cage, seat=seat)
     if compiling is None:
         cached = kernel_marks.kernels_cached(kernels_of(specs))
         compiling = Compiling() if cached else Compiling(_numbers())

@@ -110,11 +110,13 @@ def flexible_cage(specs: ModesSections) -> CageReduction:
 
 
 def bearing_in_motion(
-    specs: MotionSections, mesh: CageMesh | None, cage: CageReduction | None
-) -> BearingSystem:
-    """Bodies, contacts and equations of motion, which are compiled when first asked for."""
+    specs: MotionSections, mesh: CageMesh | None, cage: CageReduction | None, *,
+    seat: np.ndarray | None = None,
+) -> BearingSystem:  # fmt: skip
+    """Bodies, contacts and equations of motion, which are compiled when first asked for; ``seat``
+    (5, 5) is the compliance of a fixed outer ring's seat, if it is not that of the mount."""
     specs = specs.mounted
-    seat = compliance_of(specs.mount, specs.bearing)
+    seat = compliance_of(specs.mount, specs.bearing) if seat is None else seat
     rings = _moving_rings(specs, seat)
     if cage is not None:
         body = flexible_from_reduction(cage, specs.modes.damped_as(specs.its_cage.warm_material))
@@ -193,7 +195,7 @@ def _assembled(
         lubricant=specs.lubricant, drive=specs.drive, load=specs.load, mount=specs.mount,
         seed=specs.seed,
     )  # fmt: skip
-    if seat is not None and specs.mount.body:
+    if seat is not None and specs.mount.kind == "fixed":
         late = DAMPED * specs.outer_ring.relaxation
         model = model._replace(outer_ring=in_housing(model.outer_ring, seat, late))
     count = specs.bearing.element_count

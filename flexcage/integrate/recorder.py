@@ -90,10 +90,11 @@ class Recorder:
         return find(self.bearing, t, y[self.span].copy(), yd[self.span].copy())
 
     def _fine(self, yd: np.ndarray, n: int) -> dict[str, np.ndarray]:
-        """Outer ring's acceleration; of a fixed ring, what its contact forces would give it."""
+        """Outer ring's acceleration across its axis; of one that is held there, what its contact
+        forces would give it."""
         ring = self.bearing.data.model.outer_ring
         raw = self.bearing.data.samples.force[:n] / ring.inertia[MASS]
-        if ring.free.any():
+        if ring.free[1:3].any():
             raw = np.ascontiguousarray(self.bearing.layout.u(yd)["outer"][:, 1:3])
         cut = min(FILTER_HZ / (0.5 * self.output.vibration_rate), 0.95)
         filtered = low_passed(butterworth(cut), raw, self._filter)

@@ -174,7 +174,7 @@ def _find_in_preload(seated: SeatedBearing, where: str) -> Iterator[Finding]:
             f"{where} is an {bearing.kind} whose outer ring is floating: without a push it falls "
             "apart; give spring_force.",
         )
-    carries = _carries(seated)
+    carries = bears_axially(seated)
     if not carries and (offset or place.preload_force or sprung):
         yield (
             f"{where}.axial_offset",
@@ -183,7 +183,7 @@ def _find_in_preload(seated: SeatedBearing, where: str) -> Iterator[Finding]:
         )
 
 
-def _carries(seated: SeatedBearing) -> bool:
+def bears_axially(seated: SeatedBearing) -> bool:
     """Do its elements bear axial load?"""
     bearing = seated.case.bearing
     return bearing.carries_axial_load or any(getattr(bearing, "carried", ()))
@@ -193,7 +193,7 @@ def _both_ways(seated: SeatedBearing) -> bool:
     """Is it a fixed ball bearing that bears the shaft's push both ways?"""
     bearing = seated.case.bearing
     one = getattr(bearing, "one_sided", True)
-    return _carries(seated) and not one and seated.place.axial_seat == "fixed"
+    return bears_axially(seated) and not one and seated.place.axial_seat == "fixed"
 
 
 def _find_without_play(machine: Machine) -> Iterator[Finding]:
@@ -226,7 +226,7 @@ def _find_too_few(machine: Machine) -> Iterator[Finding]:
     if machine.gravity.along != "across" and machine.gravity.acceleration:
         axial = axial or 1.0
     holds = any(
-        _carries(b) and (b.place.axial_seat == "fixed" or b.place.spring_force)
+        bears_axially(b) and (b.place.axial_seat == "fixed" or b.place.spring_force)
         for b in machine.bearings
     )
     if axial and not holds:

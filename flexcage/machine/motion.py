@@ -12,9 +12,9 @@ from math import atan2
 
 import numpy as np
 
-from flexcage.bearings.ball.bearing import BallBearing
 from flexcage.case import Case
 from flexcage.core.errors import InputError
+from flexcage.machine.checks import bears_axially
 from flexcage.machine.machine import Machine, SeatedBearing
 from flexcage.machine.solution import BearingResult
 from flexcage.machine.state import without_rounding
@@ -25,7 +25,7 @@ from flexcage.system.statics.options import AT_START
 from flexcage.system.statics.solution import StaticSolution
 
 # of a vector (5,) that a mirror across x gives, as half a turn about y gives it
-_FROM_MIRROR = np.array([1.0, 1.0, -1.0, -1.0, 1.0])
+FROM_MIRROR = np.array([1.0, 1.0, -1.0, -1.0, 1.0])
 
 
 def check_moves(machine: Machine) -> None:
@@ -43,31 +43,12 @@ def _find_in_motion(machine: Machine) -> Iterator[tuple[str, str]]:
         )
     if machine.drive.at_start == 0.0 and machine.drive.ramp_to is None and not machine.drive.times:
         yield "drive.speed", "drive.speed is 0: a run needs a shaft that turns; give its speed."
-    if machine.housing.body:
-        yield (
-            "housing.body",
-            "housing.body is given, but in a run each outer ring has a seat of its own; give "
-            "[bearings.mount] instead, for now.",
-        )
-    for seated in machine.bearings:
-        place, where = seated.place, f"bearings.{seated.place.name}"
-        if seated.case.mount.body and place.reversed:
-            yield (
-                f"{where}.mount.body",
-                f"{where} faces -x and has a housing of its own (mount.body), which a run cannot "
-                'turn round yet; take mount.kind = "bushing".',
-            )
-        if slides(seated) and not isinstance(seated.case.bearing, BallBearing):
-            yield (
-                f"{where}.axial_seat",
-                f"{where}.axial_seat is 'floating', but in a run the outer ring of a "
-                f"{seated.case.bearing.kind} does not slide yet; fix it.",
-            )
 
 
 def slides(seated: SeatedBearing) -> bool:
-    """Does the outer ring of a bearing slide in its seat, as one whose elements do not?"""
-    return seated.place.axial_seat == "floating" and not seated.case.bearing.axial_refusal(1.0)
+    """Does the outer ring of a bearing slide in its seat? That of a bearing which bears no axial
+    load does not: its elements slide, and nothing pushes the ring."""
+    return seated.place.floats and bears_axially(seated)
 
 
 def case_in_motion(machine: Machine, seated: SeatedBearing, result: BearingResult) -> Case:
@@ -80,7 +61,7 @@ def case_in_motion(machine: Machine, seated: SeatedBearing, result: BearingResul
         own,
         name=f"{machine.name}-{seated.place.name}",
         description=f"bearing {seated.place.name} of the machine '{machine.name}': the shaft moves "
-        "its inner ring; the load here is that of the static solution",
+        f"its inner ring{_of_seat(machine, seated)}; the load here is that of the static solution",
         bearing=seated.case.mounted.bearing,
         mount=seated.case.mount,
         contacts=seated.case.contacts, lubricant=seated.case.lubricant,
@@ -90,6 +71,16 @@ def case_in_motion(machine: Machine, seated: SeatedBearing, result: BearingResul
         output=machine.output,
         given=own.given,
     )  # fmt: skip
+
+
+def _of_seat(machine: Machine, seated: SeatedBearing) -> str:
+    """What the case of a bearing alone does not say of its outer ring's seat."""
+    mount = seated.case.mount
+    if mount.body:
+        return ", and its housing is turned as it is" if seated.place.reversed else ""
+    if machine.housing.body and mount.kind == "fixed":
+        return ", and the housing its outer ring"
+    return ", and its outer ring slides" if slides(seated) else ""
 
 
 def _drive(drive: Drive, way: float) -> Drive:
@@ -132,7 +123,7 @@ def starting_point(result: BearingResult) -> StaticSolution:
     turned["azimuth"] = own.elements.azimuth
     turned["orbital_speed"] = -turned["orbital_speed"]
     return dataclasses.replace(
-        own, displacement=own.displacement * _FROM_MIRROR, outer=own.outer * _FROM_MIRROR,
+        own, displacement=own.displacement * FROM_MIRROR, outer=own.outer * FROM_MIRROR,
         elements=ElementLoads(**turned),
     )  # fmt: skip
 

@@ -13,6 +13,7 @@ from flexcage.bearings import statics_of
 from flexcage.contacts.spec import Contacts
 from flexcage.core.errors import FlexcageError, InputError
 from flexcage.geometry.bearing import Bearing
+from flexcage.machine.housing import SCALES, housing_seats
 from flexcage.machine.machine import Machine, SeatedBearing
 from flexcage.system.spec import Load
 from flexcage.system.statics.elements import Elements
@@ -123,53 +124,16 @@ def in_housing(machine: Machine, bearings: Sequence[Seated]) -> tuple[list[Seate
     """The bearings, those without a seat of their own in the machine's housing if it has one, and
     the stiffness (P, P) of all seats over the coordinates p of all outer rings."""
     own = [b.outer.stiffness for b in bearings]
-    housing = machine.housing
-    if not housing.body:
+    seats = housing_seats(machine)
+    if seats is None:
         return list(bearings), la.block_diag(*own)
-    from flexcage.system.seat import seats_compliance  # with readers of files, which few need
-
-    there = [k for k, b in enumerate(bearings) if not _has_seat(b)]
-    if not there:
-        raise InputError(
-            "housing.body is given, but every bearing has a [bearings.mount] of its own; leave one "
-            "of both out.",
-            where="housing.body",
-        )
-    places = [(b.spec.place.position, b.bearing.outside_diameter, b.bearing.width)
-              for b in (bearings[k] for k in there)]  # fmt: skip
-    signs = np.concatenate([bearings[k].mirror for k in there])
-    found = seats_compliance(housing, places, tie=housing.seat_tie, where="housing.body")
-    found = np.outer(signs, signs) * found
-    slides = [bearings[k].spec.place.axial_seat == "floating" for k in there]
-    held = ~np.array([slide and way == 0 for slide in slides for way in range(5)])
-    scales = np.tile(_scales(), len(there))[held]
-    inverse = np.linalg.inv(found[np.ix_(held, held)] / np.outer(scales, scales))
-    whole = np.zeros((len(held), len(held)))
-    whole[np.ix_(held, held)] = inverse / np.outer(scales, scales)
     moved = list(bearings)
-    for n, k in enumerate(there):
-        b, rows = bearings[k], slice(5 * n, 5 * n + 5)
-        if slides[n]:
-            whole[5 * n, 5 * n] = b.spec.place.spring_stiffness
-        push = np.array([b.spec.place.spring_force if slides[n] else 0.0, 0.0, 0.0, 0.0, 0.0])
-        outer = OuterRing(
-            np.eye(5), _alone(found[rows, rows], whole[5 * n, 5 * n], slides[n]), push
-        )
-        moved[k] = replace(b, outer=outer)
-    return moved, _placed([m.outer.ways.shape[1] for m in moved], own, there, whole)
-
-
-def _has_seat(b: Seated) -> bool:
-    return bool(b.spec.case.mount.body) or b.spec.case.mount.kind != "fixed"
-
-
-def _alone(compliance: np.ndarray, spring: float, slides: bool) -> np.ndarray:
-    """Stiffness (5, 5) of one seat of a housing, with no force on the others."""
-    found, kept = np.zeros((5, 5)), slice(1 if slides else 0, 5)
-    found[kept, kept] = np.linalg.inv(compliance[kept, kept])
-    if slides:
-        found[0, 0] = spring
-    return found
+    for n, k in enumerate(seats.there):
+        b, slides = bearings[k], seats.slides[n]
+        push = np.array([b.spec.place.spring_force if slides else 0.0, 0.0, 0.0, 0.0, 0.0])
+        moved[k] = replace(b, outer=OuterRing(np.eye(5), seats.alone(n), push))
+    counts = [m.outer.ways.shape[1] for m in moved]
+    return moved, _placed(counts, own, seats.there, seats.stiffness)
 
 
 def _placed(
@@ -193,13 +157,13 @@ def _outer_ring(spec: SeatedBearing) -> OuterRing:
     whole = np.zeros((5, 5)) if compliance is None else compliance
     if case.mount.body:  # the housing is written in the machine's axes
         whole = np.outer(place.mirror, place.mirror) * whole
-    floats = place.axial_seat == "floating"
+    floats = place.floats
     if floats:
         whole = whole.copy()
         whole[0, :] = whole[:, 0] = 0.0
     value, vector = np.linalg.eigh(_scaled(whole))
     soft = value > _HELD * max(float(value.max()), 1e-300)
-    ways = _scales()[:, None] * vector[:, soft]
+    ways = SCALES[:, None] * vector[:, soft]
     # o = ways p, p's compliance is diagonal
     stiffness = np.diag(1.0 / value[soft])
     if floats:
@@ -212,11 +176,5 @@ def _outer_ring(spec: SeatedBearing) -> OuterRing:
     return OuterRing(ways, stiffness, push)
 
 
-def _scales() -> np.ndarray:
-    """Displacements (5,) that are of a kind: turns over an arm of 50 mm."""
-    return np.array([1.0, 1.0, 1.0, 20.0, 20.0])
-
-
 def _scaled(compliance: np.ndarray) -> np.ndarray:
-    scales = _scales()
-    return compliance / np.outer(scales, scales)
+    return compliance / np.outer(SCALES, SCALES)

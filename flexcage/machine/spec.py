@@ -255,6 +255,11 @@ class BearingPlace:
         return self.facing == "-x"
 
     @property
+    def floats(self) -> bool:
+        """May its outer ring slide along the axis?"""
+        return self.axial_seat == "floating"
+
+    @property
     def mirror(self) -> np.ndarray:
         """Signs (5,) of x, y, z and tilts in the bearing's own axes: one that faces -x is seen in
         a mirror across the axis, which turns x and both tilts round."""

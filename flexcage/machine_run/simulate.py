@@ -26,9 +26,9 @@ from flexcage.machine.motion import (
     as_it_begins,
     case_in_motion,
     check_moves,
-    slides,
     starting_point,
 )
+from flexcage.machine.moving_seats import MovingSeats
 from flexcage.machine.rotor import TurningShaft
 from flexcage.machine.solution import BearingResult
 from flexcage.machine.solve import solve_machine
@@ -42,7 +42,7 @@ from flexcage.run.storing import run_store
 from flexcage.stages import made_cage
 from flexcage.system.begun import Start
 from flexcage.system.problem import BearingSystem
-from flexcage.system.shaft.problem import MachineSystem, begun, let_slide, release, shaft_data
+from flexcage.system.shaft.problem import MachineSystem, begun, release, shaft_data
 from flexcage.system.start import find_start, with_push
 
 
@@ -85,16 +85,17 @@ def _simulated(
     solution = clock("static", solve_machine, as_it_begins(machine))
     if folder is not None:
         write_numbers(machine, solution, folder)
-    shaft = TurningShaft(machine, solution)
+    shaft, seats = TurningShaft(machine, solution), MovingSeats(machine, solution)
     ready = [
-        _ready(machine, k, own, folder, clock, stress=stress)
+        _ready(seats, k, own, folder, clock, stress=stress)
         for k, own in enumerate(solution.bearings)
     ]
     bearings = [each.bearing for each in ready]
     for bearing in bearings:
         release(bearing)
     block = machine.output.block * machine.output.vibration_ratio
-    system = MachineSystem(bearings, shaft_data(bearings, shaft.rotor(), samples=block))
+    rotor = shaft_data(bearings, shaft.rotor(), samples=block)
+    system = MachineSystem(bearings, rotor, seats.housing(bearings))
     clock.named("kernels of the machine", system.prepare)
     integration = MachineIntegration(
         system, [recording_of(each.case.bearing) for each in ready],
@@ -116,21 +117,22 @@ def _simulated(
 
 
 def _ready(
-    machine: Machine, k: int, own: BearingResult, folder: Path | None, clock: Stages, *,
+    seats: MovingSeats, k: int, own: BearingResult, folder: Path | None, clock: Stages, *,
     stress: bool,
 ) -> _Ready:  # fmt: skip
     """Mesh, modes, kernels and start of one bearing, and the folder of its run begun."""
+    machine = seats.machine
     case = case_in_motion(machine, machine.bearings[k], own)
     foreseen = report_before(case, stress=stress)
     compiling = begin_compiling(case)
     mesh, cage = made_cage(case, clock)
-    bearing = clock.named("kernels", build_bearing, case, mesh, cage, compiling)
-    place = machine.bearings[k].place
-    if slides(machine.bearings[k]):
-        at = float(own.solution.outer[0])
-        force = place.spring_force + place.spring_stiffness * at
-        let_slide(bearing, force=force, stiffness=place.spring_stiffness, place=at)
+    bearing = clock.named(
+        "kernels", build_bearing, case, mesh, cage, compiling, seat=seats.compliance(k)
+    )
+    seats.begin(k, bearing)
     start = clock("start", _started, case, bearing, own, clock.progress)
+    seats.release(k, bearing)
+    start = seats.moved(k, bearing, start)
     warned = (*foreseen, *warnings_at_start(case, mesh, cage, start))
     into = folder / own.name if folder else None
     store = run_store(case, bearing, (mesh, cage), into, warned=warned)

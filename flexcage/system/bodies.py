@@ -278,9 +278,10 @@ def bushing_stiffness(mount: Mount) -> np.ndarray:
 
 def in_housing(ring: RingBody, compliance: np.ndarray, late: float) -> RingBody:
     """An outer ring whose seat yields by ``compliance`` (5, 5) in x, y, z and the tilts about y and
-    z, and is damped by its stiffness times ``late`` [s]."""
-    stiffness = np.zeros((6, 6))
-    stiffness[np.ix_(YIELDS, YIELDS)] = np.linalg.inv(compliance)
+    z, or holds it where that is zero, and is damped by its stiffness times ``late`` [s]."""
+    yields = np.diag(compliance) > 0.0
+    stiffness, own = np.zeros((6, 6)), np.array(YIELDS)[yields]
+    stiffness[np.ix_(own, own)] = np.linalg.inv(compliance[np.ix_(yields, yields)])
     free = np.zeros(6, np.int64)
-    free[YIELDS] = 1
+    free[own] = 1
     return ring._replace(free=free, stiffness=stiffness, damping=late * stiffness)

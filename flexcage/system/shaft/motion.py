@@ -16,7 +16,7 @@ B_b u' + c_b, accelerates by
 with M = diag(m, m, m, It, It, 1 ...), and in f its loads, weight and unbalance, the gyroscopic
 moments Ia W of its spin W (those of rings are in f_b), stiffness, damping and gyroscopic terms
 W G of its modes. M_b (B_b u' + c_b) - f_b is what the rotor does to a ring: a result, whose power
-enters that bearing's books as its load's.
+enters that bearing's books as its load's. Outer rings in one housing push each other (``housing``).
 """
 
 from __future__ import annotations
@@ -32,6 +32,12 @@ from flexcage.solve.bordered import lu_factor, lu_solve
 from flexcage.system.data import LOAD, POWERS
 from flexcage.system.layout import AXIAL_FORCE, MOMENT_Y, MOMENT_Z
 from flexcage.system.shaft.data import DAMPED, LOADS, RIGID_ROTOR, TO_BEARINGS, WEIGHT
+from flexcage.system.shaft.housing import (
+    add_housing_energy,
+    give_housing_powers,
+    move_ring,
+    push_rings,
+)
 from flexcage.system.time_functions import (
     table_integral,
     table_slope,
@@ -50,8 +56,9 @@ RATES, NOTE, SAMPLE, WANTED, DATA = range(5)  # of a bearing in ``data[0]``
 def rates(t, y, yd, data, power):
     """y' into yd, what follows from y into y, powers into ``power`` if it has room: those of every
     bearing, then the rotor's."""
-    s, k = fields(data[1]), 0
+    s, housing, k = fields(data[1]), fields(data[2]), 0
     _begin(y, s)
+    push_rings(y, housing)
     for bearing in literal_unroll(data[0]):
         low, high = s.first[k], s.first[k + 1]
         _set_ring(k, y, s)
@@ -59,6 +66,8 @@ def rates(t, y, yd, data, power):
         last = min((k + 1) * _POWERS, power.shape[0])
         bearing[RATES](t, y[low:high], yd[low:high], bearing[DATA], power[first:last])
         _borne_by(k, y, yd, s)
+        move_ring(k, y, yd, housing)
+        give_housing_powers(k, y, housing, power[first:last])
         k += 1
     _accelerate(t, y, yd, s)
     _give_powers(t, y, s, power)
@@ -74,8 +83,9 @@ def note(t, y, data):
 
 def sample(sample, t, y, yd, data):
     """Keep every bearing's report at sampling time t, and what the rotor does to its rings."""
-    s, k, whole = fields(data[1]), 0, False
+    s, housing, k, whole = fields(data[1]), fields(data[2]), 0, False
     _begin(y, s)
+    push_rings(y, housing)
     for bearing in literal_unroll(data[0]):
         low, high = s.first[k], s.first[k + 1]
         _set_ring(k, y, s)
@@ -83,6 +93,9 @@ def sample(sample, t, y, yd, data):
         whole = bearing[WANTED](sample, bearing[DATA])
         if whole:
             _borne_by(k, y, yd, s)
+            move_ring(k, y, yd, housing)
+            kept = fields(bearing[DATA][0].samples)
+            add_housing_energy(k, y, housing, kept.energy[sample // kept.stride])
         k += 1
     if whole:
         _accelerate(t, y, yd, s)

@@ -22,6 +22,7 @@ from flexcage.system.problem import BearingSystem
 from flexcage.system.scales import ERROR_RATE, work_weights
 from flexcage.system.shaft import motion
 from flexcage.system.shaft.data import RIGID_ROTOR, SHAFT_POWERS, Rotor, ShaftData, workspace
+from flexcage.system.shaft.housing import HousingData, no_housing
 from flexcage.system.time_functions import AMPLITUDE
 
 SOFT = 1e-3  # m, by which a spring of constant force is pressed (an assumption)
@@ -41,16 +42,22 @@ _OF_BEARING = ("rates", "note", "sample", "wanted")  # in the order of ``motion`
 class MachineSystem(Integrable):
     """Bearings whose inner rings are parts of one rotor, ready to be integrated explicitly."""
 
-    def __init__(self, bearings: Sequence[BearingSystem], shaft: ShaftData) -> None:
-        """``shaft`` by ``shaft_data``, of the same bearings."""
+    def __init__(
+        self, bearings: Sequence[BearingSystem], shaft: ShaftData,
+        housing: HousingData | None = None,
+    ) -> None:  # fmt: skip
+        """``shaft`` by ``shaft_data``, of the same bearings, as ``housing`` by ``housing_data`` if
+        one holds several of their outer rings."""
         super().__init__()
         self.bearings, self.shaft = tuple(bearings), shaft
+        self.housing = housing or no_housing()
         self.quads = len(bearings) * len(POWERS) + len(SHAFT_POWERS)
         own = tuple(
             types.Tuple((*(KernelType(b.signature(name)) for name in _OF_BEARING), b.data_type))
             for b in bearings
         )
-        self.data_type = types.Tuple((types.Tuple(own), numba.typeof(boxed(shaft))))
+        held = (numba.typeof(boxed(group)) for group in (shaft, self.housing))
+        self.data_type = types.Tuple((types.Tuple(own), *held))
 
     @property
     def size(self) -> int:
@@ -65,7 +72,7 @@ class MachineSystem(Integrable):
     def args(self) -> tuple:
         """What the compiled functions take as their data."""
         own = tuple((*(b.function(name) for name in _OF_BEARING), b.args) for b in self.bearings)
-        return own, boxed(self.shaft)
+        return own, boxed(self.shaft), boxed(self.housing)
 
     @cached_property
     def modes(self) -> Oscillators:
@@ -158,10 +165,12 @@ def release(bearing: BearingSystem) -> None:
 def let_slide(bearing: BearingSystem, *, force: float, stiffness: float, place: float) -> None:
     """Let the outer ring slide along its axis before a spring that presses it towards -x with
     ``force`` [N] where it stands at ``place`` [m], and with as much more a metre towards +x as its
-    ``stiffness`` [N/m]; a constant force is a spring's so soft that it hardly changes. Written into
-    the bearing's own arrays."""
+    ``stiffness`` [N/m]; a constant force is a spring's so soft that it hardly changes. Its seat
+    holds it along the axis no more. Written into the bearing's own arrays."""
     ring = bearing.data.model.outer_ring
     soft = stiffness or force / SOFT
+    for held in (ring.stiffness, ring.damping):
+        held[0, :] = held[:, 0] = 0.0
     ring.free[0] = 1
     ring.stiffness[0, 0] = soft
     ring.rest[0] = place - (force / soft if soft else 0.0)
