@@ -13,6 +13,7 @@ from flexcage.core.errors import InputError
 from flexcage.machine import load_machine
 from flexcage.machine_run import load_machine_run, simulate_machine
 
+
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
     folder = tmp_path_factory.mktemp("machine") / "pair"
