@@ -40,7 +40,7 @@ _FROM_STATIC = "load."  # keys of a bearing's case that the static solution give
 
 def attributes(machine: Machine, turning: Turning, cases: Mapping[str, Case]) -> dict[str, Any]:
     """What the store of a rotor holds beside the numbers; ``cases`` of its bearings by name."""
-    files = _files_of(machine)
+    files = machine.files
     for name, case in cases.items():
         files |= {f"bearings.{name}.{key}": file for key, file in case.files.items()}
     return {
@@ -97,7 +97,7 @@ def begun_machine(
         return None
     shaft = RunStore.open(path)
     _check_same(folder, machine, str(shaft.layout.attrs.get("machine")))
-    _check_files(folder, shaft, _files_of(machine))
+    _check_files(folder, shaft, machine.files)
     stores = {b.place.name: _opened(folder / b.place.name, shaft) for b in machine.bearings}
     if not shaft.complete:
         for store in (shaft, *stores.values()):
@@ -141,13 +141,6 @@ def _entries(table: Mapping[str, Any]) -> dict[str, Any]:
     rows = table.get("bearings", ())
     table["bearings"] = {str(row.get("name", k)): row for k, row in enumerate(rows)}
     return dict(flat(table))
-
-
-def _files_of(machine: Machine) -> dict[str, str]:
-    """Files that the machine itself names, by key."""
-    housing = machine.housing
-    named_files = {"housing.body": housing.body, "housing.body_nodes": housing.body_nodes}
-    return {key: file for key, file in named_files.items() if file}
 
 
 def _check_files(folder: Path, shaft: MemoryRunStore, files: Mapping[str, str]) -> None:

@@ -271,7 +271,8 @@ def _of_place(ds: xr.Dataset, name: str) -> PlaceFigures:
 
 
 def load_machine_run(folder: str | Path) -> MachineRun:
-    """A machine's stored run. Raises InputError for a folder that holds none."""
+    """A machine's stored run, finished or not; its ``solution`` is None where a file that the
+    machine names is gone. Raises InputError for a folder that holds none."""
     path = path_of(folder, "run")
     if not holds_machine_run(path):
         raise InputError(
@@ -292,6 +293,6 @@ def load_machine_run(folder: str | Path) -> MachineRun:
         )  # fmt: skip
     runs = {b.place.name: load_run(path / b.place.name) for b in machine.bearings}
     record = ShaftRecord.of(store)
-    return MachineRun(
-        machine, solve_machine(as_it_begins(machine)), runs, record, path, Stages(None)
-    )
+    there = all(Path(file).is_file() for file in machine.files.values())
+    solution = solve_machine(as_it_begins(machine)) if there else None
+    return MachineRun(machine, solution, runs, record, path, Stages(None))
