@@ -107,7 +107,8 @@ def _stopped_sentence(args: argparse.Namespace | None) -> str:
             f"Stopped; what is finished is kept in '{out}', and 'flexcage study resume {out}{use}' "
             "goes on from there."
         )
-    if out is None or not os.path.exists(os.path.join(out, "results.zarr")):
+    stores = ("results.zarr", "shaft.zarr")
+    if out is None or not any(os.path.exists(os.path.join(out, store)) for store in stores):
         return "Stopped."
     return f"Stopped; what was computed is kept in '{out}', and --resume goes on from there."
 

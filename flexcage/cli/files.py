@@ -22,16 +22,18 @@ def prepare_out(
     force: bool,
     resumable: bool = True,
     ours: Iterable[str] = _OURS,
+    first: str = "case.toml",
 ) -> None:
     """Refuse an output folder that would be overwritten by accident or cannot be written.
 
-    ``force`` empties one that holds a file named in ``ours``.
+    ``force`` empties one that holds a file named in ``ours``; one to ``resume`` holds the file
+    ``first``.
     """
     check_no_file(out)
     if resume:
         from flexcage.run.folder import check_written
 
-        check_written(out)
+        check_written(out, first)
     elif out.is_dir() and not _holds_nothing(out):
         if not force:
             raise InputError(
@@ -51,19 +53,21 @@ def prepare_out(
 
 
 @contextmanager
-def run_folder(out: Path, *, resume: bool, force: bool) -> Iterator[None]:
+def run_folder(
+    out: Path, *, resume: bool, force: bool, ours: Iterable[str] = _OURS, first: str = "case.toml"
+) -> Iterator[None]:
     """The folder of a run, prepared for its output and held, so that no other process writes there
-    or empties it meanwhile."""
+    or empties it meanwhile; ``ours`` and ``first`` as ``prepare_out`` takes them."""
     check_no_file(out)
     if resume:
-        prepare_out(out, resume=True, force=False)  # before our own lock lies there
+        prepare_out(out, resume=True, force=False, first=first)  # before our own lock lies there
     with ExitStack() as stack:
         try:
             stack.enter_context(held(out))
         except OSError as exc:
             raise _unwritable(out, exc) from exc
         if not resume:
-            prepare_out(out, resume=False, force=force)
+            prepare_out(out, resume=False, force=force, ours=ours)
         yield
 
 

@@ -139,30 +139,30 @@ def _run_machine(args: argparse.Namespace) -> int:
     from flexcage.machine.motion import check_moves
     from flexcage.machine.writing import OURS
 
-    if args.resume:
-        raise InputError(
-            "--resume: a machine's run is not gone on with; --force writes it anew.", where="resume"
-        )
     look, overrides = look_of(args), settings_of(args)
     if args.cage:
         count = len(read_machine(Path(args.case))[0].get("bearings", []))
         overrides |= {f"bearings.{k}.cage.model": args.cage for k in range(count)}
     machine = load_machine(Path(args.case), overrides=overrides)
     check_moves(machine)
-    out = Path(args.out) if args.out else Path("runs") / machine.name
-    prepare_out(out, resume=False, force=args.force, resumable=False, ours=(*OURS, "case.toml"))
-    with while_loading():
-        from flexcage.core.progress import Progress
-        from flexcage.machine_run import simulate_machine
+    args.out = out = Path(args.out) if args.out else Path("runs") / machine.name
+    ours = (*OURS, "case.toml")
+    with run_folder(out, resume=args.resume, force=args.force, ours=ours, first=OURS[0]):
+        with while_loading():
+            from flexcage.core.progress import Progress
+            from flexcage.machine_run import simulate_machine
 
-    run = simulate_machine(machine, out=out, progress=Progress)
-    say(run.summary.text())
-    say(
-        f"\nThe run is in {out}: shaft.nc and machine_summary.txt, and a run of each bearing in a "
-        "folder there"
-    )
-    if not args.no_images:
-        draw(run, out / "images", animate=args.animate, **look)
+        run = simulate_machine(
+            machine, out=out, resume=args.resume, other_version=args.other_version,
+            progress=Progress,
+        )  # fmt: skip
+        say(run.summary.text())
+        say(
+            f"\nThe run is in {out}: shaft.nc and machine_summary.txt, and a run of each bearing "
+            "in a folder there"
+        )
+        if not args.no_images:
+            draw(run, out / "images", animate=args.animate, **look)
     return 0
 
 

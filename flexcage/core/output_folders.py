@@ -10,7 +10,7 @@ from flexcage.core.locks import LOCK
 from flexcage.core.missing import no_folder
 
 RESULTS = "results.zarr"
-SHAFT_RESULTS = "shaft.nc"  # of a machine's run
+SHAFT_STORE, SHAFT_RESULTS = "shaft.zarr", "shaft.nc"  # of a machine's run; for other programs
 #: Endings that no folder of output has: whoever gives one wants a file.
 _OF_FILES = frozenset(
     ".csv .gif .html .inp .json .mat .msh .mtx .nc .npz .op4 .parquet .pch .pdf .png .pvd .svg "
@@ -46,7 +46,7 @@ def check_study(path: Path) -> None:
 
 def holds_machine_run(path: Path) -> bool:
     """Is this the folder of a machine's run?"""
-    return (path / SHAFT_RESULTS).is_file() and (path / "machine.toml").is_file()
+    return (path / SHAFT_STORE).is_dir() and (path / "machine.toml").is_file()
 
 
 def check_either(path: Path) -> None:

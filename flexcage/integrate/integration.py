@@ -16,6 +16,7 @@ from flexcage.integrate.foresight import EVERY, Foresight
 from flexcage.integrate.recorder import Recorder, of_another
 from flexcage.integrate.recording import Recording
 from flexcage.results.options import OutputOptions
+from flexcage.results.registry import TIME
 from flexcage.results.store import MemoryRunStore
 from flexcage.solve.contract import (
     COUNTS,
@@ -43,7 +44,7 @@ LOG_ROWS = EVERY  # steps that are logged at a time, at most
 _FIRST_ROWS, _BETWEEN = 512, 1.0  # at first; more of them where they take less than so many s
 
 
-class _Attempt(NamedTuple):
+class Attempt(NamedTuple):
     """A block as it was integrated: samples of the fine grid, what is stored of the main one."""
 
     times: np.ndarray  # (n,) [s]
@@ -67,6 +68,8 @@ class Integration:
     """The integration of one run: goes on from a checkpoint if the store has one.
 
     Its ``system`` is a bearing, or several with what couples them; each has a ``Recorder``.
+    ``store`` counts the run's blocks and holds its checkpoints: that of the first recorder, or one
+    of its own, which ``keep_more`` writes after those of all recorders.
     """
 
     def __init__(
@@ -78,9 +81,10 @@ class Integration:
         *,
         solver: SolverOptions,
         output: OutputOptions,
+        store: MemoryRunStore | None = None,
     ) -> None:
         self.system, self.recorders = system, recorders
-        self.bearing, self.store = recorders[0].bearing, recorders[0].store
+        self.bearing, self.store = recorders[0].bearing, store or recorders[0].store
         self.solver, self.output = solver, output
         self.level, self.repeated = 0, 0  # of the tolerance, as ``tightened``; blocks done again
         self.bound = np.inf  # [s] least stability bound of explicit steps so far
@@ -178,7 +182,7 @@ class Integration:
 
     def _block(self, index: int) -> None:
         """Integrate and store a block; again with a tighter tolerance where energy leaks."""
-        begun = self._checkpoint()
+        begun = self.checkpoint()
         found = self._attempt(index)
         while found.weighed.over and self.level < AGAIN:
             found = self._again(index, begun, self.level + 1)
@@ -195,7 +199,7 @@ class Integration:
         if not found.whole:
             raise RunFailed(self._stopped(found.outcome))
 
-    def _again(self, index: int, begun: dict[str, np.ndarray], level: int) -> _Attempt:
+    def _again(self, index: int, begun: dict[str, np.ndarray], level: int) -> Attempt:
         """A block from its start with another tolerance; what this costs is counted."""
         spent, repeated = self.state.count.copy(), self.repeated
         self._restore({**begun, "level": np.array(level)})
@@ -204,9 +208,9 @@ class Integration:
         log.debug("block %d again with %g of the tolerance", index, self.tightened)
         return self._attempt(index)
 
-    def _attempt(self, index: int) -> _Attempt:
+    def _attempt(self, index: int) -> Attempt:
         ratio = self.output.vibration_ratio
-        low, high = self.store.layout.span(index, "time_hf")
+        low, high = (ratio * sample for sample in self.store.layout.span(index, TIME))
         times = np.arange(low + 1, high + 1) / self.output.vibration_rate
         n, size = len(times), self.system.size
         ys, yds, quads = np.zeros((n, size)), np.zeros((n, size)), np.zeros((n, self.system.quads))
@@ -226,7 +230,7 @@ class Integration:
             arrays = [r.arrays(ys[main], yds[main], quads[main]) for r in self.recorders]
         whole = outcome == DONE and not deep
         weighed = self._weighed(arrays) if whole else NEITHER
-        return _Attempt(times, ys, yds, quads, arrays, steps, done, outcome, deep, weighed)
+        return Attempt(times, ys, yds, quads, arrays, steps, done, outcome, deep, weighed)
 
     def _weighed(self, arrays: list[dict[str, np.ndarray]]) -> Weighed:
         """What a block did to the balance of any bearing."""
@@ -263,25 +267,26 @@ class Integration:
                 self._turn()
         return outcome, sample, np.concatenate([*logs, log[:used]])
 
-    def _keep(self, index: int, found: _Attempt) -> None:
+    def _keep(self, index: int, found: Attempt) -> None:
         """Store what an attempt found, and the last state before a divergence."""
         last = self.output.vibration_ratio * found.done - 1
         if found.done:
             if found.weighed.spare and self.level:
-                self._restore({**self._checkpoint(), "level": np.array(self.level - 1)})
+                self._restore({**self.checkpoint(), "level": np.array(self.level - 1)})
             steps = dict(zip(LOG_COLUMNS, found.steps.T, strict=True))
             for recorder, arrays in zip(self.recorders, found.arrays, strict=True):
                 recorder.balance.keep(found.done)
-                whole = self._checkpoint if found.whole else None
-                recorder.keep(index, arrays, found.yds[: last + 1], whole, steps)
-            self.keep_more(found.ys[: last + 1], found.quads[: last + 1])
+                whole = found.whole and recorder.store is self.store
+                checkpoint = self.checkpoint if whole else None
+                recorder.keep(index, arrays, found.yds[: last + 1], checkpoint, steps)
+            self.keep_more(index, found)
         if found.deep and found.done:
             self.store.keep_last(
                 {"time": found.times[last], "y": found.ys[last], "yd": found.yds[last]}
             )
 
-    def keep_more(self, ys: np.ndarray, quads: np.ndarray) -> None:
-        """Keep what else there is of the fine samples of a block, and their integrals."""
+    def keep_more(self, index: int, found: Attempt) -> None:
+        """Keep what else there is of a block."""
 
     def _stopped(self, outcome: int) -> str:
         """Keep the last accepted state; the sentence that says when and where this was."""
@@ -300,7 +305,8 @@ class Integration:
             found |= recorder.parts()
         return found
 
-    def _checkpoint(self) -> dict[str, np.ndarray]:
+    def checkpoint(self) -> dict[str, np.ndarray]:
+        """Arrays by name, from which the integration goes on as from now."""
         kept = {k: v.copy() for k, v in self._parts().items()}
         return {
             **kept,

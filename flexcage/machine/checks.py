@@ -59,11 +59,21 @@ def _find_in_names(machine: Machine) -> Iterator[Finding]:
 
 def _find_in_shaft(machine: Machine) -> Iterator[Finding]:
     shaft = machine.shaft
-    if shaft.kind == "elastic" and not shaft.sections:
+    if shaft.body and shaft.sections:
+        yield (
+            "shaft.body",
+            "shaft.body and [[shaft.sections]] both describe the shaft; leave one of them out.",
+        )
+    if shaft.body and shaft.length is None:
+        yield (
+            "shaft.length",
+            "A shaft from a file (shaft.body) needs its length as well; give shaft.length.",
+        )
+    if shaft.kind == "elastic" and not (shaft.sections or shaft.body):
         yield (
             "shaft.sections",
-            "An elastic shaft needs [[shaft.sections]], each with length and diameter; or take "
-            'kind = "rigid" with a length.',
+            "An elastic shaft needs [[shaft.sections]], each with length and diameter, or a body; "
+            'or take kind = "rigid" with a length.',
         )
     if not shaft.whole_length:
         yield "shaft.length", "A rigid shaft needs its length, or [[shaft.sections]]."

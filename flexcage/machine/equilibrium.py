@@ -30,8 +30,8 @@ _AWAY = 0.05  # m: and so may one whose outer rings slide along with it
 
 @dataclass(frozen=True, eq=False)
 class Together:
-    """A shaft under forces ``load`` (5 n,) in its bearings; ``seats`` (P, P) is the stiffness of
-    all seats over the coordinates p of all outer rings."""
+    """A shaft under generalised forces ``load`` (c,) in its bearings; ``seats`` (P, P) is the
+    stiffness of all seats over the coordinates p of all outer rings."""
 
     shaft: ShaftModel
     load: np.ndarray
@@ -52,7 +52,7 @@ class Together:
     @cached_property
     def linear(self) -> np.ndarray:
         """Stiffness of the shaft in its own motions."""
-        T = self.shaft.motions
+        T = self.shaft.made
         return T.T @ self.shaft.stiffness @ T if not self.shaft.rigid else np.zeros((5, 5))
 
     @cached_property
@@ -71,6 +71,10 @@ class Together:
         """Lengths that make forces and moments of all unknowns comparable."""
         arms = np.tile([1.0, 1.0, 1.0, 0.01, 0.01], len(self.shaft.places))
         own = arms if not self.shaft.rigid else np.array([1.0, 1.0, 1.0, 0.05, 0.05])
+        more = np.diag(self.linear)[len(own) :]  # coordinates of no node, beside the stiffest x
+        own = np.concatenate(
+            [own, np.sqrt(more / max(float(self.linear.diagonal().max()), 1e-300))]
+        )
         return np.concatenate([own, np.ones(self.starts[-1] - self.starts[0])])
 
     def split(self, z: np.ndarray) -> tuple[np.ndarray, list[np.ndarray]]:
@@ -98,10 +102,10 @@ def standing(m: Together, z: np.ndarray, near: Standing | None, share: float) ->
     a = z[: m.starts[0]]
     gap = np.zeros(len(z))
     pulled = m.linear @ a
-    gap[: m.starts[0]] = pulled - m.shaft.motions.T @ m.load
+    gap[: m.starts[0]] = pulled - m.shaft.made.T @ m.load
     noise = np.zeros(len(z))
     noise[: m.starts[0]] = np.abs(m.linear) @ np.abs(a)
-    energy = 0.5 * float(a @ pulled) - float(m.load @ q)
+    energy = 0.5 * float(a @ pulled) - float(m.load @ (m.shaft.made @ a))
     postures, settled = [], True
     for k, (b, p) in enumerate(zip(m.bearings, rings)):
         found = b.press(b.relative(q, p), None if near is None else near.postures[k], share)

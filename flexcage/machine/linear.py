@@ -130,25 +130,26 @@ def on_supports(shaft: ShaftModel, supports: Mapping[float, np.ndarray]) -> Line
     """A shaft on linear supports: the stiffness (5, 5) of each by its place [m]."""
     whole = shaft.stiffness.copy()
     for place, stiffness in supports.items():
-        rows = shaft.dofs(place)
+        rows = shaft.dofs(place)  # the first coordinates are those of nodes
         whole[np.ix_(rows, rows)] += stiffness
-    return of_shaft(shaft, shaft.motions.T @ whole @ shaft.motions, {})
+    return of_shaft(shaft, shaft.made.T @ whole @ shaft.made, {})
 
 
 def of_shaft(shaft: ShaftModel, tangent: np.ndarray, dampers: Mapping[float, float]) -> Linearised:
     """A shaft with slopes (m, m) of all forces over its own motions, and radial damping [N s/m] by
     place [m]."""
-    T = shaft.motions
-    damping = np.zeros_like(shaft.mass)
+    T, own = shaft.motions, shaft.made
+    damping = np.zeros((len(T), len(T)))
     for place, value in dampers.items():
         rows = shaft.dofs(place)[1:3]
         damping[rows, rows] += value
-    unbalance = np.zeros(len(shaft.mass), complex)
+    unbalance = np.zeros(len(T), complex)
     for disc in shaft.spec.discs:
         rows = shaft.dofs(disc.position)[1:3]
         turned = disc.unbalance * np.exp(1j * disc.azimuth)
         unbalance[rows] += turned * np.array([1.0, -1.0j])  # y = cos, z = sin
     return Linearised(
-        motions=T, places=shaft.places, stiffness=tangent, mass=T.T @ shaft.mass @ T,
-        gyroscopic=T.T @ shaft.gyroscopic @ T, damping=T.T @ damping @ T, unbalance=unbalance,
+        motions=T, places=shaft.places, stiffness=tangent,
+        mass=own.T @ shaft.mass @ own, gyroscopic=own.T @ shaft.gyroscopic @ own,
+        damping=T.T @ damping @ T, unbalance=unbalance,
     )  # fmt: skip

@@ -35,6 +35,7 @@ __all__ = ["Machine", "SeatedBearing", "is_machine", "load_machine"]
 
 _OWN_PLACE = {f.name for f in dataclasses.fields(BearingPlace)}
 _TABLES = ("drive", "gravity", "shaft", "housing", "whirl", "solver", "output")
+_FILES = ("housing.body", "housing.body_nodes", "shaft.body", "shaft.body_nodes")
 _NOT_OF_A_BEARING = ("name", "description", "drive", "load")
 #: Sections of a bearing that its run alone reads.
 _OF_MOTION = ("cage", "mesh", "modes", "defects", "start", "limits", "seed")
@@ -86,7 +87,7 @@ class Machine:
         cls, table: Mapping[str, Any], *, folder: Path | None = None, si: bool = False
     ) -> Machine:
         """Machine of nested tables; ``folder`` is where relative paths start."""
-        binder, paths = Binder(named=NAMED, si=si), ("housing.body", "housing.body_nodes")
+        binder, paths = Binder(named=NAMED, si=si), _FILES
         table = with_files(dict(table), folder or Path.cwd(), paths)
         known = {f.name: f for f in dataclasses.fields(cls)}
         for key in table:
@@ -117,6 +118,14 @@ class Machine:
         reader = _Reader(binder, drive, folder or Path.cwd())
         values["bearings"] = tuple(reader.bearing(row, k) for k, row in enumerate(rows))
         return cls(**values)
+
+    @property
+    def files(self) -> dict[str, str]:
+        """Files that the machine itself names, beside those of its bearings, by path."""
+        tables = {"housing": self.housing, "shaft": self.shaft}
+        found = {path: getattr(tables[path.partition(".")[0]], path.partition(".")[2])
+                 for path in _FILES}  # fmt: skip
+        return {path: file for path, file in found.items() if file}
 
     def replace(self, changes: Mapping[str, Any]) -> Machine:
         """Varied copy by dotted path, values as text with units: ``{"drive.speed": "3000 rpm",

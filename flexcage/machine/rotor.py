@@ -6,7 +6,6 @@ import numpy as np
 import scipy.linalg as la
 
 from flexcage.core.threads import one_blas_thread
-from flexcage.machine.beams import DOFS
 from flexcage.machine.machine import Machine
 from flexcage.machine.shaft import ShaftModel
 from flexcage.machine.solution import MachineSolution
@@ -25,19 +24,19 @@ class TurningShaft:
     def __init__(self, machine: Machine, solution: MachineSolution) -> None:
         self.machine, self.model = machine, solution.shaft
         mass = self.model.mass
-        whole = _motions(self.model, 0.0)
+        whole = self.model.rigid_about(0.0)
         own = whole.T @ mass @ whole
         self.mass = float(own[1, 1])
         bearings = [b.place.position for b in machine.bearings]
         self.centre = float(own[1, 4] / self.mass) if self.mass > 0.0 else float(np.mean(bearings))
-        self.rigid = _motions(self.model, self.centre)  # (5 n, 5)
+        self.rigid = self.model.rigid_about(self.centre)  # (c, 5)
         frequency, self.modes = _own_modes(self.model, self.rigid)  # (5 n, m)
         self.frequency = frequency
         self._solution = solution
 
     @property
     def shapes(self) -> np.ndarray:
-        """All motions (5 n, 5 + m)."""
+        """Coordinates of all motions (c, 5 + m); the first of a motion are those of nodes."""
         return np.hstack([self.rigid, self.modes])
 
     def rotor(self) -> Rotor:
@@ -45,6 +44,7 @@ class TurningShaft:
         machine, model, T = self.machine, self.model, self.shapes
         own = self.rigid.T @ model.mass @ self.rigid
         gyro = T.T @ model.gyroscopic @ T
+        loads = model.point_loads(Gravity(acceleration=0.0))
         unbalance = np.zeros((2, 2, T.shape[1]))
         for disc in machine.shaft.discs:
             rows = T[model.dofs(disc.position)]
@@ -57,7 +57,7 @@ class TurningShaft:
             offset=np.array([b.offset for b in self._solution.bearings]),
             inertia=np.array([self.mass, gyro[3, 4], own[4, 4]]),
             gravity=machine.gravity.vector,
-            load=T.T @ model.point_loads(Gravity(acceleration=0.0)),
+            load=T[: len(loads)].T @ loads,
             unbalance=unbalance[0], phase=unbalance[1],
             shape=np.array([self.modes[model.dofs(p.position)] for p in places]),
             stiffness=self.frequency**2, damping=2.0 * DAMPING * self.frequency,
@@ -66,7 +66,7 @@ class TurningShaft:
 
     def pose(self) -> np.ndarray:
         """Coordinates (5 + m,) of the static solution."""
-        q = self._solution.displacement.ravel()
+        q = self._solution.coordinates
         weighted = self.shapes.T @ self.model.mass
         if self.mass > 0.0:
             return np.linalg.solve(weighted @ self.shapes, weighted @ q)
@@ -74,20 +74,12 @@ class TurningShaft:
 
     def at(self, position: float) -> np.ndarray:
         """From coordinates to displacements (5, 5 + m) at a place [m] from the left end."""
-        return self.model.at(position) @ self.shapes
-
-
-def _motions(model: ShaftModel, centre: float) -> np.ndarray:
-    """Displacements (5 n, 5) of a rigid shaft that moves with, and turns about, a point [m]."""
-    found = np.tile(np.eye(DOFS), (len(model.places), 1))
-    found[1::DOFS, 4] = model.places - centre
-    found[2::DOFS, 3] = centre - model.places
-    return found
+        return self.model.at(position) @ self.shapes[: len(self.model.motions)]
 
 
 def _own_modes(model: ShaftModel, rigid: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Frequencies (m,) [rad/s] and shapes (5 n, m), of unit mass, of a shaft that nothing holds."""
-    if model.rigid or not model.beams:
+    """Frequencies (m,) [rad/s] and shapes (c, m), of unit mass, of a shaft that nothing holds."""
+    if not model.bends:
         return np.zeros(0), np.zeros((len(rigid), 0))
     last = min(RIGID_ROTOR + MOST, len(rigid)) - 1
     values, shapes = la.eigh(model.stiffness, model.mass, subset_by_index=(0, last))

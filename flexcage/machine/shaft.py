@@ -19,8 +19,10 @@ class ShaftModel:
     """A shaft with nodes at ``places`` (n,) [m] and a beam between neighbours; no beams if it is
     rigid without sections.
 
-    Vectors (5 n,) are x, y, z and turns about y, z of node after node. ``motions`` (5 n, m) are
-    those that it can make: all of them, or the five of a rigid body.
+    Vectors (5 n,) are x, y, z and turns about y, z of node after node. Its matrices are those of
+    its c coordinates, of which these are the first; beams have no others. ``motions`` (5 n, m) are
+    those that it can make, all of them or the five of a rigid body, and ``made`` (c, m) their
+    coordinates.
     """
 
     spec: Shaft
@@ -30,6 +32,16 @@ class ShaftModel:
     @property
     def rigid(self) -> bool:
         return self.spec.kind == "rigid"
+
+    @property
+    def bends(self) -> bool:
+        """Has it motions beside those of a rigid body?"""
+        return not self.rigid and bool(self.beams)
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Its first and its last place [m]."""
+        return 0.0, float(self.places[-1])
 
     def node(self, position: float) -> int:
         """The node at a place [m] where one was made."""
@@ -49,8 +61,20 @@ class ShaftModel:
         found[2::DOFS, 3] = -self.places
         return found
 
+    @property
+    def made(self) -> np.ndarray:
+        """Coordinates (c, m) of the motions."""
+        return self.motions
+
+    def rigid_about(self, centre: float) -> np.ndarray:
+        """Coordinates (c, 5) of a rigid shaft that moves with, and turns about, a place [m]."""
+        found = np.tile(np.eye(DOFS), (len(self.places), 1))
+        found[1::DOFS, 4] = self.places - centre
+        found[2::DOFS, 3] = centre - self.places
+        return found
+
     @cached_property
-    def _of_beams(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def _own(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         size = DOFS * len(self.places)
         whole = np.zeros((3, size, size))
         for k, beam in enumerate(self.beams):
@@ -61,13 +85,13 @@ class ShaftModel:
 
     @cached_property
     def stiffness(self) -> np.ndarray:
-        """(5 n, 5 n); zero of a rigid shaft."""
-        return 0.0 * self._of_beams[0] if self.rigid else self._of_beams[0]
+        """(c, c); zero of a rigid shaft."""
+        return 0.0 * self._own[0] if self.rigid else self._own[0]
 
     @cached_property
     def mass(self) -> np.ndarray:
-        """(5 n, 5 n), with discs."""
-        found = self._of_beams[1].copy()
+        """(c, c), with discs."""
+        found = self._own[1].copy()
         for disc in self.spec.discs:
             mass, _, diametral = disc.inertia
             own = self.dofs(disc.position)
@@ -76,8 +100,8 @@ class ShaftModel:
 
     @cached_property
     def gyroscopic(self) -> np.ndarray:
-        """(5 n, 5 n) for 1 rad/s, with discs."""
-        found = self._of_beams[2].copy()
+        """(c, c) for 1 rad/s, with discs."""
+        found = self._own[2].copy()
         for disc in self.spec.discs:
             y, z = self.dofs(disc.position)[3:]
             found[y, z] += disc.inertia[1]
@@ -85,7 +109,7 @@ class ShaftModel:
         return found
 
     def load(self, gravity: Gravity) -> np.ndarray:
-        """Forces and moments (5 n,) of loads and weight."""
+        """Generalised forces (c,) of loads and weight."""
         pull = gravity.vector
         found = np.zeros(DOFS * len(self.places))
         for k, beam in enumerate(self.beams):
@@ -93,13 +117,21 @@ class ShaftModel:
         return found + self.point_loads(gravity)
 
     def point_loads(self, gravity: Gravity) -> np.ndarray:
-        """The same without the weight of the sections."""
+        """Forces and moments (5 n,) at nodes, without the weight of the sections."""
         found = np.zeros(DOFS * len(self.places))
         for disc in self.spec.discs:
             found[self.dofs(disc.position)[:3]] += disc.inertia[0] * gravity.vector
         for load in self.spec.loads:
             found[self.dofs(load.position)] += load.vector
         return found
+
+    def by_node(self, gravity: Gravity) -> np.ndarray:
+        """Forces and moments (k, 5) of loads and weight, of node after node, to tell their size."""
+        return self.load(gravity).reshape(-1, DOFS)
+
+    def node_weights(self, gravity: Gravity) -> np.ndarray:
+        """Weight (5 n,) that acts at nodes, beside that of beams and discs."""
+        return np.zeros(DOFS * len(self.places))
 
     def own_compliance(self, position: float) -> np.ndarray:
         """Compliance (5, 5) at a place [m] with all nodes held: of the beam there between its
@@ -135,7 +167,8 @@ class ShaftModel:
     def borne(self, reactions: np.ndarray, gravity: Gravity) -> SectionForces:
         """What sections bear under the point forces (5 n,) of bearings, loads and discs, and the
         weight of the beams."""
-        force = (reactions + self.point_loads(gravity)).reshape(-1, DOFS)
+        given = self.point_loads(gravity) + self.node_weights(gravity)
+        force = (reactions + given).reshape(-1, DOFS)
         pull, left, found = gravity.vector, np.zeros(DOFS), []
         for k, place in enumerate(self.places):
             if k:
@@ -195,6 +228,10 @@ def _moved(force: np.ndarray, arm: float) -> np.ndarray:
 
 def build_shaft(spec: Shaft, positions: list[float]) -> ShaftModel:
     """Model of a shaft with nodes at ``positions`` [m] of bearings, at loads and discs."""
+    if spec.body:
+        from flexcage.machine.body_shaft import read_shaft  # with readers of files, which few need
+
+        return read_shaft(spec, positions)
     ends = np.concatenate([[0.0], np.cumsum([s.length for s in spec.sections])])
     if not spec.sections:
         ends = np.array([0.0, spec.whole_length])

@@ -37,19 +37,20 @@ def solve_machine(machine: Machine) -> MachineSolution:
     expect(machine, Machine, "machine", "flexcage.load_machine reads one from a file")
     shaft = build_shaft(machine.shaft, [b.place.position for b in machine.bearings])
     load = shaft.load(machine.gravity)
-    size = _size(machine, load)
+    size = _size(machine, shaft.by_node(machine.gravity))
     seats = [seat(b, shaft.dofs(b.place.position), size) for b in machine.bearings]
     seats, stiffness = in_housing(machine, seats)
     together = Together(shaft, load, seats, stiffness)
     found = balance(together)
     q, rings = together.split(found.z)
-    results, reactions = [], np.zeros_like(load)
+    results, reactions = [], np.zeros(5 * len(shaft.places))
     for b, p, posture in zip(seats, rings, found.postures):
         slopes = b.tangent(posture)
         results.append(_result(b, p, posture, slopes, q))
         reactions[b.at] += results[-1].force
     solution = MachineSolution(
         name=machine.name, speed=machine.speed, shaft=shaft, displacement=q.reshape(-1, 5),
+        coordinates=shaft.made @ found.z[: together.starts[0]],
         sections=shaft.borne(reactions, machine.gravity), bearings=tuple(results), load=load,
         tangent=_condensed(together, found), warnings=(), unbalanced=found.share_left,
         whirl=machine.whirl, gravity=machine.gravity,
@@ -58,8 +59,8 @@ def solve_machine(machine: Machine) -> MachineSolution:
 
 
 def _size(machine: Machine, load: np.ndarray) -> float:
-    """Magnitude of what loads the machine [N]."""
-    by_node = np.abs(load.reshape(-1, 5))
+    """Magnitude of what loads the machine [N]; ``load`` (k, 5) at the shaft's nodes."""
+    by_node = np.abs(load)
     pushes = sum((b.place.preload_force or 0.0) + b.place.spring_force for b in machine.bearings)
     turning = float(by_node[:, 3:].sum()) / machine.shaft.whole_length
     return max(float(by_node[:, :3].sum()) + turning + pushes, 1.0)

@@ -125,11 +125,13 @@ class ShaftLoad:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Shaft:
-    """A shaft of cylinders end to end, with what it carries and bears.
+class Shaft(BodyFile):
+    """A shaft of cylinders end to end, or a body that another program reduced, with what it carries
+    and bears.
 
-    An elastic shaft bends and stretches as Timoshenko's beams do; it is not twisted. A rigid one
-    keeps its sections' weight, or has none where only its length is given.
+    An elastic shaft bends and stretches as Timoshenko's beams or its body do; it is not twisted. A
+    rigid one keeps its weight, or has none where only its length is given. A body is free, in the
+    machine's axes, with nodes on the axis where bearings, discs and loads are.
     """
 
     elsewhere: ClassVar[Mapping[str, str]] = {
@@ -138,15 +140,13 @@ class Shaft:
         r"bearings?": "bearings stand beside the shaft, as [[bearings]]",
         r"diameter|bore": "the shaft's diameters are those of [[shaft.sections]]",
         r"speed|rpm": "the shaft's speed is drive.speed",
-        r"body.*": "a shaft from another program's matrices is not read yet; give its sections",
         r"gravity.*": "gravity is a section of its own, [gravity]",
     }
 
     kind: str = option("elastic", doc="does the shaft bend?", choices=("elastic", "rigid"))
     length: float | None = quantity(
-        "mm", None, doc="length of a rigid shaft without sections", above=0.0,
-        when={"kind": ("rigid",)},
-    )  # fmt: skip
+        "mm", None, doc="length of a shaft without sections: a rigid one, or a body", above=0.0
+    )
     material: Material = option(
         MATERIALS["steel"], doc="material of sections that name none of their own"
     )

@@ -47,7 +47,8 @@ class MachineState:
     """Equilibrium of a machine, in SI units, radians and the machine's axes.
 
     ``displacement`` (n, 5) are x, y, z and the turns about y and z of the shaft at ``position``
-    (n,); ``sections`` what its sections bear, ``load`` (5 n,) what loads it beside the bearings.
+    (n,), and ``coordinates`` (c,) all of its own; ``sections`` what its sections bear, ``load``
+    (c,) what loads it beside the bearings.
     ``tangent`` are the exact slopes over the shaft's own motions, bearings and seats included.
     """
 
@@ -55,6 +56,7 @@ class MachineState:
     speed: float
     shaft: ShaftModel
     displacement: np.ndarray
+    coordinates: np.ndarray
     sections: SectionForces
     bearings: tuple[BearingResult, ...]
     load: np.ndarray
@@ -82,9 +84,12 @@ class MachineState:
     @cached_property
     def compliance(self) -> np.ndarray:
         """(5 n, 5 n) displacements of all places under unit forces there."""
-        T, size = self.shaft.motions, np.abs(np.diag(self.tangent)).reshape(-1, 5)
+        T, own = self.shaft.motions, np.abs(np.diag(self.tangent))
+        nodes = 1 if self.shaft.rigid else len(self.position)
+        size = own[: 5 * nodes].reshape(-1, 5)
         moves, turns = _NOTHING * size[:, :3].max(), _NOTHING * size[:, 3:].max()
-        held = np.tile([moves, moves, moves, turns, turns], len(size))  # what nothing holds
+        held = np.zeros(len(own))  # what nothing holds
+        held[: 5 * nodes] = np.tile([moves, moves, moves, turns, turns], nodes)
         found: np.ndarray = T @ np.linalg.inv(self.tangent + np.diag(held)) @ T.T
         return found
 
@@ -105,7 +110,7 @@ class MachineState:
         return found
 
     def _at(self, position: float) -> np.ndarray:
-        length = float(self.position[-1])
+        length = max(self.shaft.ends[1], self.shaft.spec.whole_length)
         if not 0.0 <= position <= length * (1.0 + 1e-12):
             raise InputError(
                 f"position is {mm(position)}, off the shaft, which is {mm(length)} long.",

@@ -119,7 +119,7 @@ def _stiffness(s: MachineState) -> list[list[str]]:
     lines = [["at", "kx, N/um", "ky, N/um", "kz, N/um", "about y, N m/mrad",
               "about z, N m/mrad"]]  # fmt: skip
     lines += [[b.name, *_diagonal(b.stiffness)] for b in s.bearings]
-    for place, name in ((0.0, "shaft, left end"), (float(s.position[-1]), "shaft, right end")):
+    for place, name in zip(s.shaft.ends, ("shaft, left end", "shaft, right end")):
         yields = np.diag(s.compliance_at(place))
         lines.append([name, *(_short(1.0 / (u * v)) for u, v in zip(yields, _UNITS))])
     return lines

@@ -16,7 +16,7 @@ from flexcage._version import __version__
 from flexcage.core.binding import path_of
 from flexcage.core.errors import InputError
 from flexcage.core.listing import PAGE, aligned, wrapped
-from flexcage.core.output_folders import SHAFT_RESULTS, holds_machine_run
+from flexcage.core.output_folders import SHAFT_STORE, holds_machine_run
 from flexcage.core.timing import Stages
 from flexcage.core.writing import write_text
 from flexcage.machine.machine import Machine, load_machine
@@ -25,6 +25,7 @@ from flexcage.machine.spec import BearingPlace
 from flexcage.machine.writing import draw_at_rest
 from flexcage.machine_run.record import ShaftRecord, imbalance
 from flexcage.results.metrics import settled
+from flexcage.results.store import RunStore
 from flexcage.run import Run
 from flexcage.simulate import load_run
 
@@ -275,11 +276,12 @@ def _of_place(ds: xr.Dataset, name: str) -> PlaceFigures:
 
 
 def load_machine_run(folder: str | Path) -> MachineRun:
-    """A machine's stored run. Raises InputError for a folder that holds none."""
+    """A machine's stored run, finished or not; its ``solution`` is None where a file that the
+    machine names is gone. Raises InputError for a folder that holds none."""
     path = path_of(folder, "run")
     if not holds_machine_run(path):
         raise InputError(
-            f"'{path}' is not the folder of a machine's run: it has no {SHAFT_RESULTS}; "
+            f"'{path}' is not the folder of a machine's run: it has no {SHAFT_STORE}; "
             "'flexcage run MACHINE' makes one.",
             where="run", value=str(path),
         )  # fmt: skip
@@ -287,8 +289,15 @@ def load_machine_run(folder: str | Path) -> MachineRun:
     from flexcage.machine.solve import solve_machine
 
     machine = load_machine(path / "machine.toml")
+    store = RunStore.open(path / SHAFT_STORE)
+    if store.n_time < 2:
+        raise InputError(
+            f"The machine's run in '{path}' holds fewer than two samples; 'flexcage run "
+            f"{path / 'machine.toml'} -o {path} --resume' goes on with it.",
+            where="run", value=str(path),
+        )  # fmt: skip
     runs = {b.place.name: load_run(path / b.place.name) for b in machine.bearings}
-    record = ShaftRecord.read(path)
-    return MachineRun(
-        machine, solve_machine(as_it_begins(machine)), runs, record, path, Stages(None)
-    )
+    record = ShaftRecord.of(store)
+    there = all(Path(file).is_file() for file in machine.files.values())
+    solution = solve_machine(as_it_begins(machine)) if there else None
+    return MachineRun(machine, solution, runs, record, path, Stages(None))

@@ -186,6 +186,11 @@ class MemoryRunStore:
         """Note that other sources compute what comes; it is kept with the next block."""
         self._commit = continued(self._commit, version, physics)
 
+    def go_back(self, blocks: int) -> None:
+        """Count the first ``blocks`` blocks alone; what follows is written again."""
+        n_time, n_time_hf = (self.layout.span(blocks, grid)[0] for grid in (TIME, TIME_HF))
+        self._commit = {**self._commit, "blocks": blocks, "n_time": n_time, "n_time_hf": n_time_hf}
+
     def check_there(self) -> None:
         """RunFailed if the run's folder was moved or removed meanwhile."""
 

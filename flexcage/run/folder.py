@@ -13,7 +13,6 @@ import logging
 from pathlib import Path
 from typing import Any
 
-from flexcage._version import __version__
 from flexcage.case import Case, load_case
 from flexcage.case.extensions import sources
 from flexcage.core.binding import flat
@@ -36,8 +35,11 @@ from flexcage.results.cage_file import (
 from flexcage.results.commit import damaged
 from flexcage.results.store import MemoryRunStore, RunStore
 from flexcage.results.summary import SUMMARY
+from flexcage.run.seams import check_physics
 
 log = logging.getLogger(__name__)
+
+PART_OF = "machine"  # attribute of a store: the machine of which the run is a bearing's
 
 
 def write_case(folder: Path, case: Case) -> None:
@@ -46,9 +48,10 @@ def write_case(folder: Path, case: Case) -> None:
     replace(folder / "case.toml", case.to_toml().encode())
 
 
-def was_written(folder: Path) -> bool:
-    """Whether a run was to be written to ``folder``, though it may not have begun yet."""
-    return (folder / "case.toml").is_file()
+def was_written(folder: Path, file: str = "case.toml") -> bool:
+    """Whether a run was to be written to ``folder``, though it may not have begun yet; ``file`` is
+    what it writes first."""
+    return (folder / file).is_file()
 
 
 #: What flexcage reads and writes in a run's folder, beside the page, which it only replaces.
@@ -58,7 +61,7 @@ _OURS = (
 )  # fmt: skip
 
 #: What a run leaves that is killed before its case is on disk.
-LEFT_OVER = (LOCK, "case.toml.new")
+LEFT_OVER = (LOCK, "case.toml.new", "machine.toml.new")
 
 
 def holds_nothing(folder: Path) -> bool:
@@ -66,12 +69,13 @@ def holds_nothing(folder: Path) -> bool:
     return all(path.name in LEFT_OVER for path in folder.iterdir())
 
 
-def check_written(folder: Path) -> None:
-    """InputError if there is nothing to resume in ``folder``."""
+def check_written(folder: Path, file: str = "case.toml") -> None:
+    """InputError if there is nothing to resume in ``folder``; ``file`` is what a run writes
+    first."""
     left = folder.is_dir() and any(folder.iterdir()) and holds_nothing(folder)
-    if not was_written(folder) and not left:
+    if not was_written(folder, file) and not left:
         raise InputError(
-            f"'{folder}' is not the folder of a run (it has no case.toml), so there is nothing to "
+            f"'{folder}' is not the folder of a run (it has no {file}), so there is nothing to "
             "resume there.",
             where="out",
             value=str(folder),
@@ -98,10 +102,17 @@ def begun_store(folder: Path, case: Case, *, other_version: bool = False) -> Run
         return None
     path = folder / "results.zarr"
     store = RunStore.open(path) if RunStore.begun(path) else None
-    stored, named = _stored(folder, store)
-    if case.hash != named and not _without_its_files(case, stored):
+    if store is not None and PART_OF in store.layout.attrs:
         raise InputError(
-            f"The case differs from the one of the run in '{folder}'{_difference(case, stored)}; "
+            f"The run in '{folder}' is that of a bearing in a machine, which moves it; go on with "
+            f"the machine: {way_on(folder, store)}",
+            where="resume",
+            value=str(folder),
+        )
+    stored, its_hash = _stored(folder, store)
+    if case.hash != its_hash and not _without_its_files(case, stored):
+        raise InputError(
+            f"The case differs from the one of the run in '{folder}'{difference(case, stored)}; "
             "resume the same case, or name another folder.",
             where="case",
             value=case.hash,
@@ -110,57 +121,16 @@ def begun_store(folder: Path, case: Case, *, other_version: bool = False) -> Run
         RunStore.clear_unbegun(path)
         log.warning("the run in '%s' was stopped before its first block; it begins anew", folder)
     elif not store.complete:
-        _check_physics(folder, store, other_version)
+        check_physics(folder, store, other_version)
     return store
 
 
-def _check_physics(folder: Path, store: RunStore, allowed: bool) -> None:
-    """Refuse, or note, that a run is gone on with by sources other than those it has so far."""
-    seams = store.seams
-    before = seams[-1] if seams else store.layout.attrs
-    if before["physics"] == physics():
-        return
-    by = f"flexcage {before['version']}"
-    if before["version"] == __version__:
-        by = f"another state of flexcage {__version__}"
-    if not allowed:
-        raise InputError(
-            f"The run in '{folder}' was begun by {by}, whose sources of physics differ from those "
-            f"of this flexcage {__version__}: from {store.n_time:,} samples on it would follow "
-            "another model. Go on with the one that began it, run the case again, or take "
-            "--other-version (in Python, other_version=True), which summary and report then say.",
-            where="resume",
-            value=before["physics"],
-        )
-    store.go_on_by(__version__, physics())
-    log.warning("%s", seam_warnings(store)[-1].text)
-
-
-def seam_warnings(store: MemoryRunStore) -> list[RunWarning]:
-    """Where a run was gone on with by another flexcage, or an edited one."""
-    found, attrs, t = [], store.layout.attrs, store.layout.coords["time"][1]
-    before = attrs["version"]
-    for seam in store.seams:
-        at = min(seam["sample"], len(t)) - 1
-        when = f"{1e3 * t[at]:.6g} ms" if at >= 0 else "its beginning"
-        found.append(
-            RunWarning(
-                "other_version",
-                f"From {when} on (sample {seam['sample']:,}) the run was gone on with by other "
-                f"sources of physics: flexcage {seam['version']}, before that {before}; two models "
-                "may meet there, so statistics over both say little.",
-            )
-        )
-        before = seam["version"]
-    return found
-
-
-def _difference(case: Case, stored: Case) -> str:
+def difference(case: Case, stored: Case) -> str:
     """The first values in which two cases differ, in brackets."""
     differ = case.difference(stored)
     if not differ:
         return " (a file or function behind it has changed)"
-    return _named(list(differ), *({k: v[i] for k, v in differ.items()} for i in (0, 1)))
+    return named(list(differ), *({k: v[i] for k, v in differ.items()} for i in (0, 1)))
 
 
 def _stored(folder: Path, store: RunStore | None) -> tuple[Case, str]:
@@ -168,10 +138,10 @@ def _stored(folder: Path, store: RunStore | None) -> tuple[Case, str]:
     if store is None:
         stored = load_case(folder / "case.toml")
         return stored, stored.hash
-    return load_case(_kept(store, "case")), _kept(store, "hash")
+    return load_case(kept(store, "case")), kept(store, "hash")
 
 
-def _kept(store: MemoryRunStore, name: str) -> str:
+def kept(store: MemoryRunStore, name: str) -> str:
     """A text that the results hold beside the numbers; InputError if they do not."""
     text = store.layout.attrs.get(name)
     if not isinstance(text, str):
@@ -199,7 +169,7 @@ def keep_cage(folder: Path, file: CageFile, *, study: Path | None = None) -> Non
 
 def kept_cage(folder: Path, store: MemoryRunStore) -> CageRecord:
     """The cage of a stored run; InputError if it is missing or another one."""
-    digest = _kept(store, "cage")
+    digest = kept(store, "cage")
     path = find_cage(folder, digest)
     record = read_cage(path)
     if record.digest != digest:
@@ -218,7 +188,7 @@ def open_folder(folder: Path) -> tuple[Case, MemoryRunStore, tuple[RunWarning, .
     check_run(folder)
     check_links(folder)
     store = RunStore.open(folder / "results.zarr")
-    text = _kept(store, "case")
+    text = kept(store, "case")
     case = load_case(text)
     _check_hash(folder, case, store)
     edit = _edit(folder / "case.toml", text, case)
@@ -231,16 +201,23 @@ def open_folder(folder: Path) -> tuple[Case, MemoryRunStore, tuple[RunWarning, .
     return case, store, (warning,)
 
 
+def way_on(folder: Path, store: MemoryRunStore) -> str:
+    """The command that goes on with the run in a folder, or with the machine that it is part of."""
+    if PART_OF in store.layout.attrs:
+        return f"flexcage run {folder.parent / 'machine.toml'} -o {folder.parent} --resume"
+    return f"flexcage run {folder / 'case.toml'} -o {folder} --resume"
+
+
 def report_unfinished(folder: Path, store: MemoryRunStore, duration: float) -> None:
     """Log that a stored run is not finished, so that what is made of it is of a part;
     InputError if it has no sample yet. ``duration`` [s]: of the whole run."""
     if store.complete:
         return
-    busy, n = is_held(folder), store.n_time
+    whole = folder.parent if PART_OF in store.layout.attrs else folder
+    busy, n = is_held(whole), store.n_time
     now, way = "is still being computed", "wait until it has finished"
     if not busy:
-        again = f"flexcage run {folder / 'case.toml'} -o {folder} --resume"
-        now, way = "was stopped", f"'{again}' goes on with it"
+        now, way = "was stopped", f"'{way_on(folder, store)}' goes on with it"
     if not n:
         raise InputError(
             f"The run in '{folder}' {now}, and has no sample yet; {way}.",
@@ -259,7 +236,7 @@ def _check_hash(folder: Path, case: Case, store: MemoryRunStore) -> None:
     functions of the user's own, or another flexcage, may change the hash of the same text."""
     attrs = store.layout.attrs
     same = attrs.get("physics") == physics() and not case.files and not sources()
-    if same and _kept(store, "hash") != case.hash:
+    if same and kept(store, "hash") != case.hash:
         raise InputError(
             f"The results in '{folder}' name the case {attrs['hash']}, but hold the text of the "
             f"case {case.hash}: one of them was changed afterwards; bring the folder back from a "
@@ -281,10 +258,10 @@ def _edit(path: Path, text: str, case: Case) -> str:
         return f"'{path}' was changed after the run and is no case any more ({exc})"
     was, now = dict(flat(case.to_table())), dict(flat(edited.to_table()))
     keys = [k for k in {**was, **now} if was.get(k) != now.get(k) and k != "given"]
-    return f"'{path}' was edited after the run{_named(keys, now, was)}" if keys else ""
+    return f"'{path}' was edited after the run{named(keys, now, was)}" if keys else ""
 
 
-def _named(keys: list[str], new: dict[str, Any], old: dict[str, Any]) -> str:
+def named(keys: list[str], new: dict[str, Any], old: dict[str, Any]) -> str:
     """The first of the values that differ, in brackets."""
     differences = [f"{key} is {new.get(key)}, was {old.get(key)}" for key in keys[:3]]
     more = f", and {len(keys) - 3} more" if len(keys) > 3 else ""

@@ -32,7 +32,7 @@ from flexcage.results.cage_file import (
 from flexcage.results.store import MemoryRunStore
 from flexcage.results.warnings import to_text
 from flexcage.run.cage_sizes import check_sizes
-from flexcage.run.folder import check_links, keep_cage, kept_cage, write_case
+from flexcage.run.folder import PART_OF, check_links, keep_cage, kept_cage, write_case
 from flexcage.stages import Cage, made_cage
 from flexcage.system.problem import BearingSystem
 
@@ -45,12 +45,13 @@ def run_store(
     *,
     study: Path | None = None,
     warned: Sequence[RunWarning] = (),
+    machine: str = "",
 ) -> MemoryRunStore:
     """A new store to write to, in ``folder`` or in memory; the folder receives case and cage, or
-    its ``study`` the cage."""
+    its ``study`` the cage. ``machine`` names that of a bearing which a shaft moves."""
     attrs = {
         "case": case.to_toml(), "hash": case.hash, "version": __version__, "physics": physics(),
-        "warnings": to_text(warned),
+        "warnings": to_text(warned), **({PART_OF: machine} if machine else {}),
     }  # fmt: skip
     if folder is not None:
         check_links(folder)

@@ -25,7 +25,7 @@ from flexcage.results.summary import Summary
 from flexcage.results.warnings import from_attrs, warnings_of
 from flexcage.results.warnings_at_end import AT_END, CAGELESS_AT_END, RunOutcome
 from flexcage.run.elastic import elastic_shape
-from flexcage.run.folder import seam_warnings
+from flexcage.run.seams import seam_warnings
 from flexcage.system.statics.lives import questioned_lives
 
 if TYPE_CHECKING:

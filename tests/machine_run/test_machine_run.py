@@ -5,54 +5,13 @@ import json
 import numpy as np
 import pytest
 from PIL import Image
+from turning_machines import spindle
 
 from flexcage import load_run
 from flexcage.cli import main
 from flexcage.core.errors import InputError
 from flexcage.machine import load_machine
 from flexcage.machine_run import load_machine_run, simulate_machine
-
-SPINDLE = """
-name = "pair"
-[drive]
-speed = "8000 rpm"
-[shaft]
-kind = "{kind}"
-[[shaft.sections]]
-length = "240 mm"
-diameter = "50 mm"
-bore = "20 mm"
-[[shaft.discs]]
-name = "tool"
-position = "5 mm"
-mass = "0.5 kg"
-unbalance = "{unbalance} g*mm"
-[[shaft.loads]]
-position = "0 mm"
-force = ["0 N", "200 N", "0 N"]
-[[bearings]]
-name = "front"
-preset = "7010C-PI"
-position = "60 mm"
-facing = "-x"
-axial_offset = "4 um"
-cage.model = "rigid"
-[[bearings]]
-name = "rear"
-preset = "7010C-PI"
-position = "180 mm"
-facing = "+x"
-axial_offset = "4 um"
-cage.model = "rigid"
-[solver]
-duration = "{duration} ms"
-[output]
-block = 50
-"""
-
-
-def spindle(kind="rigid", duration=4, unbalance=0):
-    return SPINDLE.format(kind=kind, duration=duration, unbalance=unbalance)
 
 
 @pytest.fixture(scope="module")
@@ -176,13 +135,6 @@ def test_orbits_under_unbalance_are_those_of_the_linearised_machine():
 def test_what_cannot_run_is_said_in_a_sentence(change, said):
     with pytest.raises(InputError, match=said):
         simulate_machine(load_machine(spindle(), overrides=change))
-
-
-def test_the_command_refuses_to_go_on_with_a_machine(tmp_path, capsys):
-    file = tmp_path / "pair.toml"
-    file.write_text(spindle())
-    assert main(["run", str(file), "--resume", "-o", str(tmp_path / "out")]) == 2
-    assert "a machine's run is not gone on with" in capsys.readouterr().err
 
 
 def test_a_folder_that_is_no_machines_run(tmp_path):

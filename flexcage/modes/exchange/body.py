@@ -25,8 +25,10 @@ class ReducedBody:
     """``n`` coordinates of a body with ``N`` nodes, in SI and the frame of its nodes.
 
     ``stiffness`` and ``mass`` act on the coordinates; ``mass`` is None where a file has none (a
-    body for statics). ``dofs[j]`` is (node, component) of coordinate j, components 0 to 5 being
-    translations and rotations about x, y, z; the node of a modal coordinate is ``MODAL``.
+    body for statics). ``gyroscopic`` is skew, G of M q'' + w G q' + K q = f where the body spins by
+    w about +x, None where a file has none. ``dofs[j]`` is (node, component) of coordinate j,
+    components 0 to 5 being translations and rotations about x, y, z; the node of a modal
+    coordinate is ``MODAL``.
     ``shapes`` are displacements of the nodes for a unit of each coordinate, None where the file
     has none. ``kind`` names every coordinate (those of ``ModeBasis``, and ``RESIDUAL``), or
     is empty. ``cells`` are elements, if any; ``interface`` names sets of nodes.
@@ -42,6 +44,7 @@ class ReducedBody:
     interface: Mapping[str, np.ndarray] = field(default_factory=lambda: MappingProxyType({}))
     numbers: np.ndarray | None = None  # (N,) of the nodes in the file
     source: str = ""  # the file, for sentences
+    gyroscopic: Matrix | None = None  # (n, n)
 
     def __repr__(self) -> str:
         what = "full matrices" if self.is_full else f"{self.size} coordinates"

@@ -50,6 +50,7 @@ class Contents:
     points: FileNodes | None = None
     shapes: np.ndarray | None = None
     kind: tuple[str, ...] = ()
+    gyroscopic: Any | None = None
 
 
 def unreadable(path: Path, reason: object, *, where: str) -> InputError:
@@ -84,6 +85,7 @@ def picked(found: Mapping[str, Any], names: tuple[str, ...]) -> Any | None:
 #: What matrices are called: Nastran's of EXTSEOUT and of assemblies, and plain names.
 STIFFNESS = ("STIFFNESS", "K", "KAAX", "KAA", "KGG", "KJJ", "KXX", "K2GG")
 MASS = ("MASS", "M", "MAAX", "MAA", "MGG", "MJJ", "MXX", "M2GG")
+GYROSCOPIC = ("GYROSCOPIC", "G")
 NODES = ("NODES", "POINTS", "XYZ")
 SHAPES = ("SHAPES", "PHI", "PHIG", "PHG")
 DOFS = ("DOFS", "LABELS")
@@ -120,6 +122,7 @@ def from_matrices(found: Mapping[str, Any], path: Path, *, where: str) -> Conten
     refuse_twice(found, path, where=where)
     warn_of_damping(found, path)
     stiffness, mass = picked(found, STIFFNESS), picked(found, MASS)
+    gyroscopic = picked(found, GYROSCOPIC)
     if stiffness is None:
         if {"DATA", "INDICES", "INDPTR"} <= {name.upper() for name in found}:
             raise InputError(
@@ -138,13 +141,14 @@ def from_matrices(found: Mapping[str, Any], path: Path, *, where: str) -> Conten
     nodes, labels, shapes = picked(found, NODES), picked(found, DOFS), picked(found, SHAPES)
     kinds = picked(found, ("KIND",))
     for name, value in zip(
-        "K M NODES DOFS SHAPES".split(), (stiffness, mass, nodes, labels, shapes)
+        "K M G NODES DOFS SHAPES".split(), (stiffness, mass, gyroscopic, nodes, labels, shapes)
     ):
         _check_numbers(name, value, path, where)
     size = stiffness.shape[0]
     return Contents(
         stiffness=_real(stiffness),
         mass=None if mass is None else _real(mass),
+        gyroscopic=None if gyroscopic is None else _real(gyroscopic),
         labels=None
         if labels is None
         else _whole(_wide(labels, 2, "DOFS", path, where), "DOFS", path, where),
@@ -163,7 +167,7 @@ def _check_numbers(name: str, value: Any, path: Path, where: str) -> None:
     if value is None:
         return
     kind, size = value.dtype.kind, value.ndim
-    if kind not in "iufc" or (size != 2 and name in "KM"):
+    if kind not in "iufc" or (size != 2 and name in "KMG"):
         words = {"U": "texts", "S": "texts", "b": "an array of true and false"}
         found = words.get(kind, f"an array of {size} dimensions")
         raise InputError(
@@ -184,6 +188,8 @@ def to_matrices(body: ReducedBody) -> dict[str, Any]:
     Dofs are written with node numbers from 1 and components from 1, as in files of all programs.
     """
     found = {"K": body.stiffness, "M": body.mass, "NODES": body.nodes, "DOFS": labels_of(body)}
+    if body.gyroscopic is not None:
+        found["G"] = body.gyroscopic
     if body.numbers is not None:
         found["NUMBERS"] = body.numbers
     if body.shapes is not None:

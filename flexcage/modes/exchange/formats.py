@@ -133,17 +133,19 @@ def _body(contents: Contents, points: FileNodes | None, path: Path, where: str) 
     _refuse_same(dofs, points.numbers, path, where)
     place = {int(n): i for i, n in enumerate(points.numbers)}
     sets = {name: np.array([place[n] for n in v if n in place]) for name, v in points.sets.items()}
-    stiffness, mass = contents.stiffness, contents.mass
+    stiffness, mass, gyroscopic = contents.stiffness, contents.mass, contents.gyroscopic
     if points.frames is not None:
         turn = _turn(dofs, points.frames, path, where)
         stiffness = turn.T @ stiffness @ turn
         mass = None if mass is None else turn.T @ mass @ turn
+        gyroscopic = None if gyroscopic is None else turn.T @ gyroscopic @ turn
     shapes = contents.shapes
     if shapes is not None and shapes.shape[0] == 6 * len(points.numbers):
         shapes = shapes.reshape(-1, 6, size)[:, :3]
     return ReducedBody(
         stiffness=stiffness,
         mass=mass,
+        gyroscopic=gyroscopic,
         nodes=np.asarray(points.places, float),
         dofs=dofs,
         shapes=None if shapes is None else np.array(shapes, float).reshape(-1, 3, size),
@@ -198,6 +200,7 @@ def _check_shapes(contents: Contents, points: FileNodes, path: Path, where: str)
     wanted = {
         "stiffness": (contents.stiffness, (n, n)),
         "mass": (contents.mass, (n, n)),
+        "gyroscopic": (contents.gyroscopic, (n, n)),
         "shapes": (contents.shapes, (_rows(contents, count), n)),
         "dofs": (contents.labels, (n, 2)),
     }
@@ -264,14 +267,13 @@ def _in_si(body: ReducedBody, system: System) -> ReducedBody:
         return body
     unit = coordinate_units(body.dofs, system)
     per = sp.diags_array(1.0 / unit)
-    shapes = body.shapes
+    shapes, inertia = body.shapes, system.mass * system.length**2
+    moving = {name: getattr(body, name) for name in ("mass", "gyroscopic")}
     return ReducedBody(
         **{
             **{name: getattr(body, name) for name in body.__dataclass_fields__},
             "stiffness": system.energy * _scaled(body.stiffness, per),
-            "mass": None
-            if body.mass is None
-            else system.mass * system.length**2 * _scaled(body.mass, per),
+            **{k: None if m is None else inertia * _scaled(m, per) for k, m in moving.items()},
             "nodes": system.length * body.nodes,
             "shapes": None if shapes is None else system.length * shapes / unit,
         }
