@@ -7,12 +7,17 @@ from flexcage.study.axes import Sobol as Sobol
 from flexcage.study.axes import Zip as Zip
 from flexcage.study.dataset.build import build_dataset as build_dataset
 from flexcage.study.dataset.check import check_dataset as check_dataset
+from flexcage.study.dataset.sharded import build_shard as build_shard
+from flexcage.study.dataset.sharded import merge_dataset as merge_dataset
 from flexcage.study.maps import Map as Map
 from flexcage.study.maps import MapResults as MapResults
 from flexcage.study.maps import load_map as load_map
 from flexcage.study.maps import run_map as run_map
 from flexcage.study.results import StudyResults as StudyResults
 from flexcage.study.run import run_study as run_study
+from flexcage.study.sharded import merge_study as merge_study
+from flexcage.study.sharded import plan_study as plan_study
+from flexcage.study.sharded import run_shard as run_shard
 from flexcage.study.spec import Repeat as Repeat
 from flexcage.study.spec import Study as Study
 from flexcage.study.spec import load_study as load_study
