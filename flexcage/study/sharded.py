@@ -154,7 +154,11 @@ def check_planned(folder: Folder) -> None:
         )
 
 
-def missing_of(results: StudyResults, count: int) -> list[Shard]:
-    """Shards, of ``count``, that own cases which are neither done nor failed."""
+def missing_of(
+    results: StudyResults, count: int, has: Callable[[str], bool] | None = None
+) -> list[Shard]:
+    """Shards, of ``count``, that own cases which are neither done nor failed, nor of a hash that
+    the data set ``has``."""
     lacking = {row.planned.hash for row in results.rows if row.state == "open"}
+    lacking = {name for name in lacking if has is None or not has(name)}
     return missing(results.planned, lacking, count)

@@ -27,7 +27,7 @@ from flexcage.run import Run
 from flexcage.run.folder import was_written, write_case
 from flexcage.run.foreseen import reported_at_once
 from flexcage.simulate import load_run, simulate
-from flexcage.stages import cage_mesh, cage_reduction, keep_at_hand
+from flexcage.stages import cage_mesh, cage_reduction, keep_at_hand, keep_mesh_at_hand
 from flexcage.study.about import plain
 from flexcage.study.case_row import CaseRow, Failure
 from flexcage.study.folder import Folder
@@ -152,6 +152,8 @@ def _compute(order: Order, folder: Folder) -> None:
     part = folder.part(order.hash)
     run = _march(case, part, order, partial(ReportedProgress, report))
     keep_at_hand(run.cage)
+    if case.cage is not None:
+        keep_mesh_at_hand(case, run.mesh)
     figures = figures_of(run, order.beyond)
     seconds = time.process_time() - begin
     row = CaseRow(order.hash, seconds, figures, run.warnings, order.values, this_one())

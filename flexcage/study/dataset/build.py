@@ -132,13 +132,14 @@ def check_classes(results: StudyResults, folder: DatasetFolder) -> None:
         raise InputError(f"No case of the study finished: {results.rows[0].reason}.", where="study")
 
 
-def write_index(folder: DatasetFolder, settings: Settings) -> None:
-    """Tables and cards of all recordings of a folder, which then has all that it should.
-    InputError for a class of severity without recordings."""
+def write_index(folder: DatasetFolder, settings: Settings, *, whole: bool = True) -> None:
+    """Tables and cards of all recordings of a folder. InputError for a class of severity without
+    recordings, if these are the ``whole`` data set."""
     records = folder.records()
     rows = [row for record in records for row in record["rows"]]
     truth = [record["truth"] for record in records]
-    _check_severities(rows, settings.edges)
+    if whole:
+        _check_severities(rows, settings.edges)
     splits = splits_of(truth)
     tables = {
         "metadata.parquet": _table(rows), "truth.parquet": _table(truth),

@@ -74,8 +74,8 @@ def merge_dataset(
         take_recordings(folder, names, mixed=other_version)
         results = StudyResults(study.path)
         results.write()
-        lacking = missing_of(results, count)
+        lacking = missing_of(results, count, folder.has)
         if not lacking:
             check_classes(results, folder)
-        write_index(folder, kept)
+        write_index(folder, kept, whole=not lacking)
     return folder, lacking
