@@ -10,7 +10,7 @@ from flexcage.cli.parser import command, say, say_shard, whole_number
 from flexcage.cli.settings import settings_of
 from flexcage.core.errors import InputError
 
-CHECK, MERGE = "check", "merge"
+CHECK, MERGE, PLAN = "check", "merge", "plan"
 
 
 def add_commands(commands: Any) -> None:
@@ -20,8 +20,8 @@ def add_commands(commands: Any) -> None:
     dataset.add_argument(
         "what",
         nargs="+",
-        metavar="STUDY|check|merge",
-        help="file of a study or a map (.toml), or: check DIR, or: merge DIR",
+        metavar="STUDY|plan|check|merge",
+        help="file of a study or a map (.toml), or: plan STUDY, check DIR, merge DIR",
     )
     dataset.add_argument(
         "-o", "--out", metavar="DIR", help="its folder (default: runs/NAME-dataset)"
@@ -45,7 +45,8 @@ def dataset_command(args: argparse.Namespace) -> int:
     merge DIR."""
     if args.what[0] in _OF_FOLDERS:
         return _OF_FOLDERS[args.what[0]](_folder(args.what))
-    if len(args.what) > 1:
+    planning = args.what[0] == PLAN
+    if len(args.what) != 1 + planning:
         raise InputError(
             f"dataset takes one study, and was given {' '.join(args.what)}; 'flexcage dataset "
             "check DIR' checks a data set.",
@@ -54,16 +55,17 @@ def dataset_command(args: argparse.Namespace) -> int:
     from flexcage.core.progress import Progress
     from flexcage.study.dataset.build import build_dataset
     from flexcage.study.dataset.folder import Settings
-    from flexcage.study.dataset.sharded import build_shard
+    from flexcage.study.dataset.sharded import build_shard, plan_dataset
 
-    source = Path(args.what[0])
+    source = Path(args.what[-1])
     out = Path(args.out) if args.out else Path("runs") / f"{source.stem}-dataset"
     given: dict[str, Any] = {"license": args.license} if args.license else {}
     settings = Settings(edges=_edges(args.severity), title=args.title, **given)
-    how: dict[str, Any] = {
-        "settings": settings, "overrides": settings_of(args), "workers": args.workers,
-        "progress": Progress,
-    }  # fmt: skip
+    how: dict[str, Any] = {"settings": settings, "overrides": settings_of(args)}
+    if planning:
+        say(f"{len(plan_dataset(source, out, **how).cases)} cases are planned in {out}")
+        return 0
+    how |= {"workers": args.workers, "progress": Progress}
     if args.shard:
         return say_shard(build_shard(source, out, args.shard, **how), f"dataset merge {out}")
     return _say_all(build_dataset(source, out, **how))

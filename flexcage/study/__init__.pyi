@@ -9,6 +9,7 @@ from flexcage.study.dataset.build import build_dataset as build_dataset
 from flexcage.study.dataset.check import check_dataset as check_dataset
 from flexcage.study.dataset.sharded import build_shard as build_shard
 from flexcage.study.dataset.sharded import merge_dataset as merge_dataset
+from flexcage.study.dataset.sharded import plan_dataset as plan_dataset
 from flexcage.study.maps import Map as Map
 from flexcage.study.maps import MapResults as MapResults
 from flexcage.study.maps import load_map as load_map

@@ -5,6 +5,8 @@ All else of a study is as it is: plan, shards, folders, merge, tables.
 
 from __future__ import annotations
 
+from time import process_time
+
 import numpy as np
 import pyarrow as pa
 
@@ -19,11 +21,13 @@ from flexcage.study.work import Order
 SAMPLES, RATE = 12_000, 12_000.0  # of a recording: a second
 FIGURES = 150  # of a row, about as many as a run has
 calls: list[str] = []  # hashes of the cases that were computed in this process
+seconds = [0.0]  # of processor time that they took
 
 
 def fake_do_case(order: Order, *prepared: object) -> str:
     """As ``study.work.do_case``."""
     calls.append(order.hash)
+    begin = process_time()
     folder, part = Folder(order.folder), Folder(order.folder).part(order.hash)
     part.mkdir(parents=True, exist_ok=True)
     row = _row(order)
@@ -31,6 +35,7 @@ def fake_do_case(order: Order, *prepared: object) -> str:
     if order.keeper is not None and not order.keeper.has():
         DatasetFolder(order.keeper.folder).add(order.hash, _recording(order))
     folder.finish(order.hash)
+    seconds[0] += process_time() - begin
     return "done"
 
 

@@ -12,11 +12,12 @@ import time
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
+from fake_case import fake_do_case
 from test_dataset import EDGES, POINTS, study_in
 
 from flexcage.cli import main
 from flexcage.core.errors import InputError
-from flexcage.study import work
+from flexcage.study import desk, sharded, work
 from flexcage.study.dataset.check import check_dataset
 from flexcage.study.dataset.folder import DatasetFolder
 from flexcage.study.dataset.keeping import RecordingKeeper
@@ -121,6 +122,19 @@ def test_a_missing_shard_and_a_conflict(two, tmp_path, capsys):
     shard.add(name, Recording({f"signals/part-{name}.parquet": b"x"}, [], {}))
     with pytest.raises(InputError, match=f"Recording {name} is in .* with other content"):
         merge_dataset(out)
+
+
+def test_a_planned_data_set_is_not_planned_again(tmp_path, monkeypatch, capsys):
+    path, out = kept_nothing(tmp_path / "in"), tmp_path / "o"
+    monkeypatch.setattr(desk, "do_case", fake_do_case)
+    assert main(["dataset", "plan", str(path), "-o", str(out)]) == 0
+    assert "3 cases are planned in" in capsys.readouterr().out
+    monkeypatch.setattr(sharded, "make_plan", lambda study: pytest.fail("planned again"))
+    for k in (1, 2):
+        one = ["dataset", str(path), "-o", str(out), "--workers", "1", "--shard", f"{k}/2"]
+        assert main(one) == 0
+    assert main(["dataset", "merge", str(out)]) == 0
+    assert "3 recordings, 3 signals" in capsys.readouterr().out
 
 
 def test_a_class_without_cases_is_refused_by_the_merge(tmp_path):

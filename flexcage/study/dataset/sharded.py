@@ -12,6 +12,7 @@ from flexcage.study.dataset.folder import DatasetFolder, Settings
 from flexcage.study.dataset.gathering import take_recordings
 from flexcage.study.desk import Crew
 from flexcage.study.folder import Folder
+from flexcage.study.plan import Plan, make_plan
 from flexcage.study.results import StudyResults
 from flexcage.study.sharded import (
     ShardState,
@@ -22,6 +23,24 @@ from flexcage.study.sharded import (
     state_of,
 )
 from flexcage.study.shards import Shard, check_shards, shard_folder, shard_of
+
+
+def plan_dataset(
+    source: str | Path,
+    out: str | Path,
+    *,
+    settings: Settings | None = None,
+    overrides: dict[str, Any] | None = None,
+) -> Plan:
+    """Check all cases of a data set and write its settings and its plan; nothing is computed.
+
+    Shards that begin there then take both. Arguments and errors as ``build_dataset``.
+    """
+    asked, folder = asked_of(source, settings, overrides), DatasetFolder(out)
+    plan = make_plan(asked.study)
+    folder.prepare(asked.settings)
+    Folder(folder.study.resolve()).prepare(plan)
+    return plan
 
 
 def build_shard(
