@@ -182,8 +182,11 @@ def study_map_command(args: argparse.Namespace) -> int:
 def study_status_command(args: argparse.Namespace) -> int:
     """flexcage study status DIR: how many cases are done, failed and open."""
     from flexcage.study.results import StudyResults
+    from flexcage.study.shards import unmerged_words
 
     say(StudyResults(args.dir).status())
+    if more := unmerged_words(Path(args.dir)):
+        say(more)
     return 0
 
 

@@ -207,6 +207,19 @@ def missing_words(shards: Sequence[Shard], command: str) -> str:
     return f"Missing: {what}; compute it with '{command} --shard {shards[0]}', or bring its folder."
 
 
+def unmerged_words(study: Path) -> str:
+    """A sentence on what shards hold that is not merged; nothing without shards."""
+    shards = shards_in(study)
+    if not shards:
+        return ""
+    done = sum(len(list(Folder(path).finished())) for path in shards.values())
+    count = next(iter(shards)).count
+    return (
+        f"Not merged: {done} cases in {len(shards)} of {count} shards; 'flexcage study merge "
+        f"{study}' gathers them."
+    )
+
+
 def remove_empty(study: Path, shards: Iterable[Path]) -> None:
     """Remove the folders of shards in which nothing is left."""
     for path in shards:

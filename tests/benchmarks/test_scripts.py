@@ -15,6 +15,8 @@ SLOW = {
     "peer": "sksundae",
     "exudyn": "exudyn",
     "study": "distributed",
+    "dataset": "pyarrow",
+    "shards": "pyarrow",
     "whole": "",
 }  # and what they need
 POSITIVE = re.compile(

@@ -312,4 +312,4 @@ def test_the_example_is_a_study_that_a_data_set_takes():
     plan = make_plan(study)
     kinds = [fault_of(plan.case(planned)).name for planned in plan.cases]
     assert sorted(set(kinds)) == ["cage", "inner", "normal", "outer", "rolling_element"]
-    assert len(kinds) == 12 and study.keep == "runs" and len(study.case.sensors) == 5
+    assert len(kinds) == 12 and len(study.case.sensors) == 5

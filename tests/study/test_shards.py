@@ -203,6 +203,9 @@ def test_the_commands_say_what_to_do_next(tmp_path, fake, capsys):
     assert main([*shard, "1/2"]) == 0
     said = capsys.readouterr().out
     assert "Shard 1/2: 2 of 2 cases done" in said and f"'flexcage study merge {out}'" in said
+    assert main(["study", "status", out]) == 0
+    said = capsys.readouterr().out
+    assert "3 cases: 0 done" in said and "Not merged: 2 cases in 1 of 2 shards;" in said
     assert main(["study", "merge", out]) == 1
     assert "Missing: shard 2 of 2; compute it with" in capsys.readouterr().out
     assert main([*shard, "2/2"]) == 0 and main(["study", "merge", out]) == 0
