@@ -147,16 +147,6 @@ def compiled(function: Any, signature: Any, options: dict[str, Any] = WITHOUT_NR
     return _compiled[key]
 
 
-def entry_of(function: Any) -> Any:
-    """A kernel of one signature as it is called with arguments of just these types.
-
-    numba's dispatcher finds out the types of all arguments first, and in the slow way of groups
-    that hold kernels: milliseconds a call, where a bearing's arrays are handed over.
-    """
-    found = list(getattr(function, "overloads", {}).values())
-    return found[0].entry_point if len(found) == 1 else function
-
-
 def cache_environment() -> dict[str, str]:
     """Environment variables by which another process finds the same cache, which can be written
     if there is any way."""

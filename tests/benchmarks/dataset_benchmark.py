@@ -101,7 +101,7 @@ def _measured(base: Case, seconds: float, count: int) -> dict[str, Any]:
             memory.append(psutil.Process().memory_info().rss)
             rows.append(folder.row(planned.hash))
         size = sum(p.stat().st_size for p in data.path.rglob("*") if p.is_file())
-    cpu, advance = np.median(spent, axis=0)
+    cpu, advance = map(float, np.median(spent, axis=0))
     shares = [abs(row.figures["energy_of_drive"].value) for row in rows]
     worst = max(filter(isfinite, shares), default=0.0)
     return {

@@ -9,7 +9,10 @@ from pathlib import Path
 
 import pytest
 
-PAGES = [Path(__file__).with_name(name) for name in ("README.md", "peers.md", "methods.md")]
+PAGES = [
+    Path(__file__).with_name(name)
+    for name in ("README.md", "peers.md", "methods.md", "large_studies.md")
+]
 FAST = ("solver", "fe", "scale", "ball", "methods", "start", "own", "machine")
 SLOW = {
     "peer": "sksundae",
