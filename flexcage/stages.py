@@ -29,6 +29,7 @@ from flexcage.case.sections import (
     RingSections,
     StartSections,
 )
+from flexcage.core.hashing import content_hash
 from flexcage.core.progress import Silent
 from flexcage.core.timing import Stages
 from flexcage.mesh.cage_mesh import CageMesh
@@ -67,9 +68,20 @@ def made_cage(specs: CageSections, stages: Stages) -> Cage:
 
 def cage_mesh(specs: MeshSections) -> CageMesh:
     """Mesh of a cage, checked."""
+    at_hand = _mesh_at_hand.get(_mesh_key(specs))
+    if at_hand is not None:
+        return at_hand
     mesh = build_cage_mesh(**specs.cage_shape)
     check_mesh(mesh, where=specs.mesh.file or "mesh")
     return mesh
+
+
+_mesh_at_hand: dict[str, CageMesh] = {}  # one at most
+
+
+def _mesh_key(specs: MeshSections) -> str:
+    """Names a mesh that is made of the specs alone; empty for a file's."""
+    return "" if specs.mesh.file else content_hash(specs.cage_shape)
 
 
 def cage_reduction(specs: CageSections, mesh: CageMesh) -> CageReduction | None:
@@ -97,6 +109,13 @@ def keep_at_hand(cage: CageReduction | None) -> None:
     """Have the next case take this cage, with all that was derived from it, if it has the same:
     the cases that a study's worker computes one after the other often do."""
     _at_hand[:] = [] if cage is None else [cage]
+
+
+def keep_mesh_at_hand(specs: MeshSections, mesh: CageMesh) -> None:
+    """Have the next case take this mesh of a cage, if it has the same."""
+    _mesh_at_hand.clear()
+    if key := _mesh_key(specs):
+        _mesh_at_hand[key] = mesh
 
 
 def cage_modes(specs: ModesSections) -> ModeTable:

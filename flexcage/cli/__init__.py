@@ -98,6 +98,8 @@ def _sentence(exc: Exception) -> tuple[str, int]:
 def _stopped_sentence(args: argparse.Namespace | None) -> str:
     """What Ctrl-C leaves of a command. It may come at any moment: nothing is imported here."""
     out = getattr(args, "out", None)
+    if getattr(args, "shard", None):
+        return "Stopped; what is finished is kept, and the same command goes on from there."
     if out is not None and os.path.exists(os.path.join(out, "study.toml")):
         loaded: tuple[str, ...] = getattr(
             sys.modules.get("flexcage.case.extensions"), "sources", tuple

@@ -1,4 +1,4 @@
-"""Commands that take a study: run, resume, status, report, map."""
+"""Commands that take a study: plan, run, resume, merge, status, report, map."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from flexcage.cli.parser import command, say, whole_number
+from flexcage.cli.parser import command, say, say_shard, whole_number
 from flexcage.cli.settings import settings_of
 from flexcage.mesh.options import FINENESS
 
@@ -18,7 +18,14 @@ def add_commands(commands: Any) -> None:
     run = command(actions, "run", study_run_command, "compute what a study's folder lacks")
     run.add_argument("study", metavar="STUDY", help="study file (.toml)")
     run.add_argument("-o", "--out", metavar="DIR", help="study folder (default: runs/NAME)")
-    _of_base_case(run)
+    run.add_argument(
+        "--shard", metavar="I/N", help="compute the I-th of N parts only; 'study merge' gathers"
+    )
+    plan = command(actions, "plan", study_plan_command, "check all cases and write their plan")
+    plan.add_argument("study", metavar="STUDY", help="study file (.toml)")
+    plan.add_argument("-o", "--out", metavar="DIR", help="study folder (default: runs/NAME)")
+    for parser in (run, plan):
+        _of_base_case(parser)
     resume = command(actions, "resume", study_resume_command, "go on with a study that stopped")
     resume.add_argument("dir", metavar="DIR", help="study folder")
     for parser in (run, resume):
@@ -29,6 +36,9 @@ def add_commands(commands: Any) -> None:
         where.add_argument("--scheduler", metavar="ADDRESS", help="a running Dask scheduler")
         parser.add_argument("--retry", action="store_true", help="try failed cases again")
         _other_version(parser)
+    merge = command(actions, "merge", study_merge_command, "gather the shards of a study")
+    merge.add_argument("dir", metavar="DIR", help="study folder")
+    _other_version(merge)
     unknowns = command(actions, "map", study_map_command, "sample unknowns, and say what decides")
     unknowns.add_argument("map", metavar="MAP", help="map file (.toml)")
     unknowns.add_argument("-o", "--out", metavar="DIR", help="map folder (default: runs/NAME)")
@@ -86,7 +96,47 @@ def study_run_command(args: argparse.Namespace) -> int:
 
     study = load_study(args.study, overrides=settings_of(args))
     args.out = Path(args.out) if args.out else Path("runs") / study.name
-    return compute_study(study, args)
+    return _run_shard(study, args) if args.shard else compute_study(study, args)
+
+
+def _run_shard(study: Any, args: argparse.Namespace) -> int:
+    from flexcage.core.errors import InputError
+    from flexcage.core.progress import Progress
+    from flexcage.study.sharded import run_shard
+
+    if args.scheduler:
+        raise InputError(
+            "A shard is computed by this machine alone; leave out --scheduler, or --shard.",
+            where="shard",
+        )
+    state = run_shard(
+        study, out=args.out, shard=args.shard, workers=args.workers, retry=args.retry,
+        progress=Progress,
+    )  # fmt: skip
+    return say_shard(state, f"study merge {args.out}")
+
+
+def study_plan_command(args: argparse.Namespace) -> int:
+    """flexcage study plan STUDY: check all cases of a study and write its plan."""
+    from flexcage.study.sharded import plan_study
+    from flexcage.study.spec import load_study
+
+    study = load_study(args.study, overrides=settings_of(args))
+    args.out = Path(args.out) if args.out else Path("runs") / study.name
+    say(f"{len(plan_study(study, out=args.out).cases)} cases are planned in {args.out}")
+    return 0
+
+
+def study_merge_command(args: argparse.Namespace) -> int:
+    """flexcage study merge DIR: gather the shards of a study, and print its table."""
+    from flexcage.study.sharded import merge_study
+    from flexcage.study.shards import missing_words
+
+    results, lacking = merge_study(args.dir, other_version=args.other_version)
+    say(results.report())
+    if lacking:
+        say(missing_words(lacking, f"flexcage study run STUDY -o {args.dir}"))
+    return 1 if lacking or results.count("failed") else 0
 
 
 def study_resume_command(args: argparse.Namespace) -> int:
@@ -132,8 +182,11 @@ def study_map_command(args: argparse.Namespace) -> int:
 def study_status_command(args: argparse.Namespace) -> int:
     """flexcage study status DIR: how many cases are done, failed and open."""
     from flexcage.study.results import StudyResults
+    from flexcage.study.shards import unmerged_words
 
     say(StudyResults(args.dir).status())
+    if more := unmerged_words(Path(args.dir)):
+        say(more)
     return 0
 
 

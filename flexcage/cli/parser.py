@@ -17,6 +17,13 @@ def say(text: object = "") -> None:
     sys.stdout.write(f"{text}\n")
 
 
+def say_shard(state: Any, merge: str) -> int:
+    """Say how far a shard is and which command gathers all; 1 if a case of it failed."""
+    say(state)
+    say(f"It is in {state.folder}; 'flexcage {merge}' gathers the shards")
+    return 1 if state.failed else 0
+
+
 _BEFORE = ("-v", "--verbose", "-q", "--quiet", "--version")
 
 

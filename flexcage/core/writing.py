@@ -17,6 +17,7 @@ from pathlib import Path
 
 from flexcage.core.errors import InputError
 
+SPARE = ".new-"  # begins the names of folders in which a file is written before it has its place
 LONGEST_NAME = 200  # bytes; folders may have 255, and commands add words to it
 
 
@@ -87,7 +88,7 @@ def folder_in(folder: Path, *names: str) -> Path:
 def written(path: Path) -> Iterator[Path]:
     """A path to write to, of the same name, in a temporary folder beside: the file gets its place
     once the context ends. Of an error nothing is left. OSError from the disk."""
-    with tempfile.TemporaryDirectory(dir=path.parent, prefix=".new-") as spare:
+    with tempfile.TemporaryDirectory(dir=path.parent, prefix=SPARE) as spare:
         temporary = Path(spare) / path.name
         yield temporary
         os.replace(temporary, path)

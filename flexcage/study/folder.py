@@ -7,6 +7,7 @@
     cages/<digest>.zip    a cage that runs share (``results.cage_file``), one file each
     cases/<hash>.part/    a case that is running, or was when its process ended
     failed/<hash>.json    why a case has no figures
+    shards/<i>-of-<n>/    a part of it that one process computes: cases, cages, failed, as here
     running.lock          held by the process that runs it
 
 A row says of which case it is, with which values and by which flexcage, and has a seal: an edited
@@ -20,54 +21,31 @@ from __future__ import annotations
 import json
 import os
 import shutil
-from collections.abc import Mapping
+from collections.abc import Iterator
 from contextlib import AbstractContextManager
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from flexcage.core.binding import path_of
-from flexcage.core.errors import InputError, unwritable
-from flexcage.core.hashing import seal_holds, sealed
+from flexcage.core.errors import FlexcageError, InputError, unwritable
+from flexcage.core.hashing import seal_holds
 from flexcage.core.locks import LOCK, held
 from flexcage.core.output_folders import check_no_file, check_study
 from flexcage.core.reading import read_json
-from flexcage.core.warning import RunWarning
-from flexcage.core.writing import check_own, replace, sync
+from flexcage.core.writing import SPARE, check_own, replace, sync, written
 from flexcage.study.about import About, from_store, to_store
-from flexcage.study.origin import Origin, stored_origin
-from flexcage.study.outputs import StudyFigure
+from flexcage.study.case_row import CaseRow, Failure, row_from
 from flexcage.study.plan import Plan, Planned
 from flexcage.study.spec import FORMAT, Study, check_format, stored_study, stored_table
 
 _ROW, _PART = "row.json", ".part"
-_ITS_OWN = ("study.toml", "plan.json", "cases", "failed", "cages")
-_LEFT_OVER = (LOCK, "cases", "failed", "plan.json.new")  # of one killed before it had a plan
+SHARDS = "shards"
+_ITS_OWN = ("study.toml", "plan.json", "cases", "failed", "cages", SHARDS)
+# of one killed before it had a plan
+_LEFT_OVER = (LOCK, "cases", "failed", SHARDS, "plan.json.new")
 _NOT_THERE = (KeyError, TypeError, AttributeError)  # a text that is not what was written
 _ZARR_GROUP = {"zarr_format": 3, "node_type": "group", "attributes": {}}
-
-
-@dataclass(frozen=True)
-class Failure:
-    """Why a case has no figures. A final failure would come again: only ``retry`` tries it."""
-
-    kind: str
-    reason: str
-    final: bool
-
-
-@dataclass(frozen=True)
-class CaseRow:
-    """What is known of one finished case: ``seconds`` of processor time that it took, ``warnings``
-    of its run, ``values`` that the study's axes gave it, by path, and the flexcage that computed
-    it."""
-
-    hash: str
-    seconds: float
-    figures: Mapping[str, StudyFigure]
-    warnings: tuple[RunWarning, ...]
-    values: Mapping[str, Any]
-    origin: Origin
 
 
 class Folder:
@@ -135,27 +113,50 @@ class Folder:
 
     def prepare(self, plan: Plan) -> None:
         """Make the folder, or take over one that holds a study: its cases are found by content."""
+        self._check_place()
+        try:
+            self.make()
+            with self.held():
+                _write_json(self.path / "plan.json", to_store(plan))
+                replace(self.path / "study.toml", plan.study.to_toml().encode())
+        except OSError as exc:
+            raise self._unwritable(exc) from exc
+
+    def begin_shards(self, plan: Plan) -> None:
+        """Leave the plan for its shards, of which many may begin at the same moment, if another is
+        there or none."""
+        self._check_place()
+        try:
+            self.path.mkdir(parents=True, exist_ok=True)
+            text = {"study.toml": plan.study.to_toml(), "plan.json": json.dumps(to_store(plan))}
+            for name, content in text.items():
+                with written(self.path / name) as file:
+                    file.write_text(content, "utf-8")
+        except OSError as exc:
+            raise self._unwritable(exc) from exc
+
+    def make(self) -> None:
+        """Make the folders of cases and failures, as those of a shard."""
+        for folder in (self.path, self.cases, self.failed):
+            folder.mkdir(parents=True, exist_ok=True)
+        _write_json(self.cases / "zarr.json", _ZARR_GROUP)
+
+    def _check_place(self) -> None:
         check_no_file(self.path)
         _own(*(self.path / name for name in _ITS_OWN))
         if (self.path / "plan.json").is_file():  # a study.toml alone is the user's own
             if (self.path / "study.toml").is_file():
                 stored_table(self.path / "study.toml")  # refuses another format
-        elif self.path.is_dir() and any(p.name not in _LEFT_OVER for p in self.path.iterdir()):
+        elif self.path.is_dir() and any(map(_is_foreign, self.path.iterdir())):
             raise InputError(
                 f"'{self.path}' holds files and no study; name an empty or a new folder with -o.",
                 where="out",
                 value=str(self.path),
             )
-        try:
-            for folder in (self.path, self.cases, self.failed):
-                folder.mkdir(parents=True, exist_ok=True)
-            with self.held():
-                _write_json(self.cases / "zarr.json", _ZARR_GROUP)
-                _write_json(self.path / "plan.json", to_store(plan))
-                replace(self.path / "study.toml", plan.study.to_toml().encode())
-        except OSError as exc:
-            what, remedy = f"The study's folder '{self.path}'", "name another with -o"
-            raise unwritable(what, exc, remedy=remedy, path=self.path) from exc
+
+    def _unwritable(self, error: OSError) -> FlexcageError:
+        what, remedy = f"The study's folder '{self.path}'", "name another with -o"
+        return unwritable(what, error, remedy=remedy, path=self.path)
 
     def held(self) -> AbstractContextManager[None]:
         """Let no other process run a study here meanwhile; InputError if one does.
@@ -185,10 +186,7 @@ class Folder:
         try:
             if stored["hash"] != name:
                 raise _lacks(path, f"the figures of this case but of {stored['hash']}")
-            figures = {key: StudyFigure(*values) for key, values in stored["figures"].items()}
-            warnings = tuple(RunWarning(*values) for values in stored["warnings"])
-            origin = stored_origin(stored["origin"])
-            return CaseRow(name, stored["seconds"], figures, warnings, stored["values"], origin)
+            return row_from(stored)
         except _NOT_THERE as exc:
             raise _lacks(path, "the figures of a case") from exc
 
@@ -203,13 +201,7 @@ class Folder:
 
     def write_row(self, where: Path, row: CaseRow) -> None:
         """Write a case's row into the folder ``where`` of its run."""
-        figures = {k: [f.value, f.unit, f.shown, f.margin] for k, f in row.figures.items()}
-        stored = {
-            "format": FORMAT, "hash": row.hash, "seconds": row.seconds, "figures": figures,
-            "warnings": [[w.key, w.text] for w in row.warnings],
-            "values": dict(row.values), "origin": row.origin.to_store(),
-        }  # fmt: skip
-        _write_json(where / _ROW, sealed(stored))
+        _write_json(where / _ROW, row.to_store())
 
     def finish(self, name: str) -> None:
         """Give a case that is complete its name, once all in it is on disk."""
@@ -224,6 +216,15 @@ class Folder:
         sync(self.cases)
         self.reason(name).unlink(missing_ok=True)
 
+    def finish_begun(self, name: str) -> None:
+        """Finish a case whose process was killed when all was computed, if there is one."""
+        if self.is_whole(name):
+            self.finish(name)
+
+    def is_whole(self, name: str) -> bool:
+        """Whether a case that is not finished lacks nothing but its name."""
+        return (self.part(name) / _ROW).is_file()
+
     def write_failure(self, name: str, failure: Failure) -> None:
         _write_json(self.reason(name), asdict(failure))
 
@@ -232,9 +233,24 @@ class Folder:
         self.reason(name).unlink(missing_ok=True)
         shutil.rmtree(self.part(name), ignore_errors=True)
 
+    def finished(self) -> Iterator[str]:
+        """Hashes of the cases that are finished, planned or not."""
+        for path in sorted(self.cases.glob(f"*/{_ROW}")):
+            if path.parent.suffix != _PART:
+                yield path.parent.name
+
+    def failures(self) -> Iterator[str]:
+        """Hashes of the cases that failed."""
+        yield from (path.stem for path in sorted(self.failed.glob("*.json")))
+
     def running(self) -> set[str]:
         """Hashes of cases that are running, or were when their process ended."""
         return {p.name.removesuffix(_PART) for p in self.cases.glob(f"*{_PART}")}
+
+
+def _is_foreign(path: Path) -> bool:
+    """Whether no study left this in its folder before it had a plan."""
+    return path.name not in _LEFT_OVER and not path.name.startswith(SPARE)
 
 
 def _own(*paths: Path) -> Path:

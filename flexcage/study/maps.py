@@ -30,7 +30,7 @@ from flexcage.study.about import key_of
 from flexcage.study.axes import Points
 from flexcage.study.folder import Folder
 from flexcage.study.origin import this_one
-from flexcage.study.plan import make_plan
+from flexcage.study.plan import Plan, make_plan
 from flexcage.study.results import StudyResults
 from flexcage.study.run import check_physics, run_study
 from flexcage.study.sensitivity import Index, indices
@@ -172,10 +172,15 @@ def run_map(
     if not other_version:
         check_physics(plan, folder, allowed=False)  # before map.json is another
     folder.prepare(plan)
-    stored = sealed({**spec.stored(), "plan": key_of(plan.cases)})
-    replace_file(out / FILE, (json.dumps(stored, indent=1) + "\n").encode())
+    keep_map(spec, plan, folder)
     run_study(study, out=out, workers=workers, other_version=other_version, progress=progress)
     return MapResults(out)
+
+
+def keep_map(spec: Map, plan: Plan, folder: Folder) -> None:
+    """Write map.json beside the plan of the map's study."""
+    stored = sealed({**spec.stored(), "plan": key_of(plan.cases)})
+    replace_file(folder.path / FILE, (json.dumps(stored, indent=1) + "\n").encode())
 
 
 class MapResults:

@@ -92,7 +92,7 @@ def make_plan(study: Study) -> Plan:
             if case.cage is not None:
                 materials[case.cage.material.name] = None
             held = held.intersection(names_of(case.constraints))
-            cases.append(Planned(number, point, repetition, case.hash, _modes_key(case)))
+            cases.append(Planned(number, point, repetition, case.hash, modes_key(case)))
     check_outputs(
         study.outputs, sizes=sizes, flexible=flexible, riveted=riveted, family=family,
         caged=caged, uncaged=uncaged, materials=materials,
@@ -115,7 +115,8 @@ def _of_rings(case: Case) -> set[str]:
     return {dim for dim, there in has.items() if there}
 
 
-def _modes_key(case: Case) -> str:
+def modes_key(case: Case) -> str:
+    """Names what cases of one cage share; empty for a rigid cage."""
     if case.cage_model == "rigid":
         return ""
     return content_hash(

@@ -23,7 +23,8 @@ from flexcage.results.export import frame_to_csv, frame_to_parquet
 from flexcage.results.row import format_value
 from flexcage.run import Run
 from flexcage.simulate import load_run
-from flexcage.study.folder import CaseRow, Folder
+from flexcage.study.case_row import CaseRow
+from flexcage.study.folder import Folder
 from flexcage.study.origin import Origin, origins_note
 from flexcage.study.outputs import StudyFigure
 from flexcage.study.plan import Plan, Planned

@@ -14,7 +14,7 @@ from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from flexcage.case import Case, load_case, load_extension
 from flexcage.case.extensions import sources
@@ -27,15 +27,27 @@ from flexcage.run import Run
 from flexcage.run.folder import was_written, write_case
 from flexcage.run.foreseen import reported_at_once
 from flexcage.simulate import load_run, simulate
-from flexcage.stages import cage_mesh, cage_reduction, keep_at_hand
+from flexcage.stages import cage_mesh, cage_reduction, keep_at_hand, keep_mesh_at_hand
 from flexcage.study.about import plain
-from flexcage.study.folder import CaseRow, Failure, Folder
+from flexcage.study.case_row import CaseRow, Failure
+from flexcage.study.folder import Folder
 from flexcage.study.origin import Origin, this_one
 from flexcage.study.outputs import beyond_summary, figures_of, lacking, late_figures, needs_stress
 from flexcage.study.plan import Plan, Planned
 from flexcage.study.progress import ReportedProgress, stage_reporter
 
 log = logging.getLogger(__name__)
+
+
+class Keeper(Protocol):
+    """What is kept of a finished run elsewhere than in its study, before the run may go: data that
+    a worker receives, and that has a content hash."""
+
+    def has(self) -> bool:
+        """Is it there already?"""
+
+    def keep(self, run: Run, row: CaseRow) -> None:
+        """Write it, in one move."""
 
 
 @dataclass(frozen=True)
@@ -51,9 +63,10 @@ class Order:
     keep: str
     values: Mapping[str, Any]  # that the study's axes gave, by path
     origin: Origin = field(default_factory=this_one)  # the flexcage that planned it
+    keeper: Keeper | None = None
 
 
-def order_of(plan: Plan, planned: Planned, folder: Path) -> Order:
+def order_of(plan: Plan, planned: Planned, folder: Path, keeper: Keeper | None = None) -> Order:
     """What a worker needs to compute a planned case."""
     return Order(
         hash=planned.hash,
@@ -64,6 +77,7 @@ def order_of(plan: Plan, planned: Planned, folder: Path) -> Order:
         use=sources(),
         keep=plan.study.keep,
         values=plain(planned.point.values),
+        keeper=keeper,
     )
 
 
@@ -102,18 +116,35 @@ def prepare(order: Order) -> None:
 
 
 def _complete(order: Order, folder: Folder) -> None:
-    row = folder.row(order.hash)
+    row, keeper = folder.row(order.hash), order.keeper
     missing = order.beyond if row is None else lacking(order.beyond, row.figures)
-    if row is not None and not missing:
+    kept = keeper is None or keeper.has()
+    if row is not None and not missing and kept:
         return
-    begin = time.process_time()
     _load(order)
     if row is not None and folder.has_run(order.hash):  # only outputs were added
-        run = load_run(folder.case(order.hash))
+        _complete_from_run(order, folder, row, missing)
+    elif keeper is not None and kept:  # killed before it had its name; or the study was removed
+        folder.finish_begun(order.hash)
+    else:
+        _compute(order, folder)
+
+
+def _complete_from_run(
+    order: Order, folder: Folder, row: CaseRow, missing: tuple[str, ...]
+) -> None:
+    """Add outputs, and what is kept elsewhere, from the run of a finished case."""
+    run = load_run(folder.case(order.hash))
+    if missing:
         figures = {**row.figures, **late_figures(run, missing)}
         row = replace(row, figures=figures, warnings=run.warnings)
         folder.write_row(folder.case(order.hash), row)
-        return
+    if order.keeper is not None and not order.keeper.has():
+        order.keeper.keep(run, row)
+
+
+def _compute(order: Order, folder: Folder) -> None:
+    begin = time.process_time()
     case = _case_of(order)
     report = stage_reporter(order.hash)
     report("kernels", None)
@@ -121,10 +152,14 @@ def _complete(order: Order, folder: Folder) -> None:
     part = folder.part(order.hash)
     run = _march(case, part, order, partial(ReportedProgress, report))
     keep_at_hand(run.cage)
+    if case.cage is not None:
+        keep_mesh_at_hand(case, run.mesh)
     figures = figures_of(run, order.beyond)
     seconds = time.process_time() - begin
     row = CaseRow(order.hash, seconds, figures, run.warnings, order.values, this_one())
     folder.write_row(part, row)
+    if order.keeper is not None:
+        order.keeper.keep(run, row)
     folder.finish(order.hash)
 
 

@@ -19,7 +19,7 @@ EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 sys.path[:0] = [str(Path(__file__).parent)]
 WHAT = (
     "solver", "fe", "peer", "exudyn", "scale", "study", "ball", "methods", "start", "own", "whole",
-    "machine",
+    "machine", "dataset", "shards",
 )  # fmt: skip
 # of the case, with --quick
 QUICK = {"mesh.fineness": "coarse", "mesh.order": 1, "cage.model": "rigid"}
@@ -33,7 +33,10 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--fineness", default="medium", help="fe: fineness of the mesh")
     parser.add_argument("--solver", default="auto", help="fe: linear solver")
     parser.add_argument("--plot", type=Path, metavar="FILE", help="peer, scale: draw curves")
-    parser.add_argument("--cases", type=int, default=1000, help="study: number of trivial cases")
+    text = "study, dataset, shards: number of cases (1000 trivial; 2 a bearing; 2000)"
+    parser.add_argument("--cases", type=int, help=text)
+    parser.add_argument("--only", metavar="A,B", help="dataset: these alone, as '6205 rigid'")
+    parser.add_argument("--seconds", type=float, default=1.0, help="dataset: of a signal")
     parser.add_argument("--quick", action="store_true", help="only see whether it runs")
     parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE")
     args = parser.parse_args(argv)
@@ -56,7 +59,13 @@ def main(argv: list[str] | None = None) -> int:
     elif args.what in ("peer", "scale"):
         options["plot"] = args.plot
     elif args.what == "study":
-        options.setdefault("trivial_cases", args.cases)
+        options.setdefault("trivial_cases", args.cases or 1000)
+    elif args.what in ("dataset", "shards"):
+        options |= {"cases": args.cases} if args.cases else {}
+        if args.what == "dataset":
+            options.setdefault("seconds", args.seconds)
+        if args.only:
+            options["subjects"] = tuple(part.strip() for part in args.only.split(","))
     elif args.what in ("fe", "own"):
         case = case if args.quick else case.replace("mesh.fineness", args.fineness)
         if args.what == "fe":

@@ -9,12 +9,17 @@ from pathlib import Path
 
 import pytest
 
-PAGES = [Path(__file__).with_name(name) for name in ("README.md", "peers.md", "methods.md")]
+PAGES = [
+    Path(__file__).with_name(name)
+    for name in ("README.md", "peers.md", "methods.md", "large_studies.md")
+]
 FAST = ("solver", "fe", "scale", "ball", "methods", "start", "own", "machine")
 SLOW = {
     "peer": "sksundae",
     "exudyn": "exudyn",
     "study": "distributed",
+    "dataset": "pyarrow",
+    "shards": "pyarrow",
     "whole": "",
 }  # and what they need
 POSITIVE = re.compile(

@@ -12,7 +12,8 @@ from flexcage.core.errors import InputError
 from flexcage.core.warning import RunWarning
 from flexcage.report.comparison import Output
 from flexcage.study.axes import Grid, LatinHypercube, Points, Zip
-from flexcage.study.folder import CaseRow, Failure, Folder
+from flexcage.study.case_row import CaseRow, Failure
+from flexcage.study.folder import Folder
 from flexcage.study.origin import this_one
 from flexcage.study.outputs import StudyFigure
 from flexcage.study.page_stress import to_show

@@ -15,7 +15,8 @@ from flexcage.run.cost import Cost, expected_seconds, note_pace
 from flexcage.simulate import simulate
 from flexcage.study import run as study_run
 from flexcage.study.axes import Grid
-from flexcage.study.folder import CaseRow, Folder
+from flexcage.study.case_row import CaseRow
+from flexcage.study.folder import Folder
 from flexcage.study.origin import this_one
 from flexcage.study.plan import make_plan
 from flexcage.study.spec import Study

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from flexcage.case import Case, load_case
 from flexcage.study.about import plain
-from flexcage.study.folder import CaseRow
+from flexcage.study.case_row import CaseRow
 from flexcage.study.origin import this_one
 from flexcage.study.outputs import StudyFigure
 from flexcage.study.plan import Planned

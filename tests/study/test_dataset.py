@@ -167,8 +167,6 @@ def test_mistakes_are_one_sentence(built, tmp_path, capsys):
 
     bare = study_in(tmp_path / "a", sensors=[])
     assert "has no sensors; give it [[sensors]]" in said(bare, "-o", tmp_path / "o")
-    few = study_in(tmp_path / "b", keep="figures")
-    assert 'keep = "runs"' in said(few, "-o", tmp_path / "o")
     good = study_in(tmp_path / "c")
     rising = said(good, "-o", tmp_path / "o", "--severity", "2 mm, 1 mm")
     assert "are 2 mm, 1 mm, but should be rising" in rising
@@ -180,6 +178,8 @@ def test_mistakes_are_one_sentence(built, tmp_path, capsys):
     assert "holds no data set" in said("check", tmp_path / "mine")
     assert "severity edges 0.6 mm" in said(good, "-o", built, "--severity", "1 mm")
     assert "check takes the folder of one data set" in said("check")
+    assert "holds no shards to merge" in said("merge", built)
+    assert "should be I/N" in said(good, "-o", tmp_path / "o", "--shard", "3/2")
     assert not (tmp_path / "o").exists()
 
 
@@ -312,4 +312,4 @@ def test_the_example_is_a_study_that_a_data_set_takes():
     plan = make_plan(study)
     kinds = [fault_of(plan.case(planned)).name for planned in plan.cases]
     assert sorted(set(kinds)) == ["cage", "inner", "normal", "outer", "rolling_element"]
-    assert len(kinds) == 12 and study.keep == "runs" and len(study.case.sensors) == 5
+    assert len(kinds) == 12 and len(study.case.sensors) == 5

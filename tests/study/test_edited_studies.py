@@ -17,7 +17,8 @@ from flexcage.core.hashing import sealed
 from flexcage.study import maps
 from flexcage.study.about import plain
 from flexcage.study.axes import Grid
-from flexcage.study.folder import CaseRow, Folder
+from flexcage.study.case_row import CaseRow
+from flexcage.study.folder import Folder
 from flexcage.study.maps import Map, MapResults
 from flexcage.study.origin import Origin, this_one
 from flexcage.study.outputs import StudyFigure

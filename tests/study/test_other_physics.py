@@ -14,7 +14,8 @@ from flexcage.study import converge, maps, work
 from flexcage.study import run as study_run
 from flexcage.study.about import plain
 from flexcage.study.axes import Grid
-from flexcage.study.folder import CaseRow, Folder
+from flexcage.study.case_row import CaseRow
+from flexcage.study.folder import Folder
 from flexcage.study.maps import Map
 from flexcage.study.origin import Origin, this_one
 from flexcage.study.outputs import StudyFigure

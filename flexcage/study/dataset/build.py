@@ -1,9 +1,10 @@
-"""From a study or a map to a data set: its runs, a recording of each, tables and cards."""
+"""From a study or a map to a data set: a recording of each case, tables and cards."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -11,15 +12,18 @@ from typing import Any
 from flexcage.core.binding import path_of
 from flexcage.core.errors import InputError
 from flexcage.core.output_folders import check_no_file
-from flexcage.core.progress import Silent
-from flexcage.simulate import load_run
 from flexcage.study.dataset import card, labels
 from flexcage.study.dataset.folder import DatasetFolder, Settings
-from flexcage.study.dataset.recording import parquet, recording_of
+from flexcage.study.dataset.gathering import take_recordings
+from flexcage.study.dataset.keeping import RecordingKeeper
+from flexcage.study.dataset.recording import parquet
 from flexcage.study.dataset.splits import splits_of
-from flexcage.study.maps import SAMPLE, load_map, run_map
+from flexcage.study.desk import Crew
+from flexcage.study.folder import Folder
+from flexcage.study.maps import SAMPLE, Map, keep_map, load_map
+from flexcage.study.plan import Planned, make_plan
 from flexcage.study.results import StudyResults
-from flexcage.study.run import run_study
+from flexcage.study.run import check_physics, run_plan
 from flexcage.study.spec import Study, load_study, read_file
 
 
@@ -32,44 +36,67 @@ def build_dataset(
     workers: int | None = None,
     progress: Callable[..., Any] | None = None,
 ) -> DatasetFolder:
-    """Make or go on with the data set in the folder ``out`` of a study or a map, by its file; its
-    runs are computed in ``out``/study.
+    """Make or go on with the data set in the folder ``out`` of a study or a map, by its file.
 
-    Recordings that are there are kept, and those of other studies as well. Raises InputError for a
-    study without sensors or without runs, for a class none of whose cases finished, and for a
+    Each case is recorded by its worker as soon as it is finished; its figures stay in
+    ``out``/study, and its run as well where the file says ``keep = "runs"``. Recordings that are
+    there are kept, also those of other studies, and not computed again. Raises InputError for a
+    study without sensors or without cases, for a class none of whose cases finished, and for a
     folder of other files or settings.
     """
-    path, folder = path_of(source, "study"), DatasetFolder(out)
-    is_map = "unknowns" in read_file(path)
-    spec: Any = (load_map if is_map else load_study)(path, overrides=overrides)
-    study: Study = spec.study() if is_map else spec
-    _check(study, path)
-    wanted = _checked(settings or Settings())
+    asked = asked_of(source, settings, overrides)
+    folder = DatasetFolder(out)
     check_no_file(folder.path)
     with folder.held():
-        kept = folder.prepare(wanted)
-        run = run_map if is_map else run_study
-        run(spec, out=folder.study, workers=workers, progress=progress)
-        results = StudyResults(folder.study)
-        _check_classes(results)
-        _record(results, folder, kept, progress)
+        kept = folder.prepare(asked.settings)
+        plan, study = make_plan(asked.study), Folder(folder.study.resolve())
+        check_physics(plan, study, allowed=False)
+        study.prepare(plan)
+        if asked.map is not None:
+            keep_map(asked.map, plan, study)
+        take_recordings(folder, {c.hash for c in plan.cases})
+        keeper = keeper_of(folder.path, folder.name, kept)
+        results = run_plan(plan, study, Crew(workers, keeper=keeper), progress=progress)
+        check_classes(results, folder)
         write_index(folder, kept)
     return folder
 
 
-def _check(study: Study, path: Path) -> None:
+@dataclass(frozen=True)
+class Asked:
+    """The study of which a data set is made, the map that it is of, if it is, and settings."""
+
+    study: Study
+    settings: Settings
+    map: Map | None = None
+
+
+def asked_of(
+    source: str | Path, settings: Settings | None, overrides: dict[str, Any] | None
+) -> Asked:
+    """What is asked for by the file of a study or a map, checked.
+
+    Runs stay only where the file itself says so: a study alone would keep them.
+    """
+    path = path_of(source, "study")
+    table = read_file(path)
+    is_map = "unknowns" in table
+    spec: Any = (load_map if is_map else load_study)(path, overrides=overrides)
+    study: Study = spec.study() if is_map else spec
     if not study.case.sensors:
         raise InputError(
             f"The base case of '{path}' has no sensors; give it [[sensors]], as in "
             "examples/signals.md.",
             where="sensors",
         )
-    if study.keep != "runs":
-        raise InputError(
-            f"'{path}' keeps figures alone (keep = \"figures\"), and signals come from runs; take "
-            'keep = "runs".',
-            where="keep",
-        )
+    study = replace(study, keep=table.get("keep", "figures"))
+    return Asked(study, _checked(settings or Settings()), spec if is_map else None)
+
+
+def keeper_of(folder: Path, name: str, settings: Settings) -> Callable[[Planned], RecordingKeeper]:
+    """What a worker keeps of each case in the data set ``folder`` called ``name``."""
+    where = str(folder.resolve())
+    return lambda planned: RecordingKeeper(where, name, settings.edges, planned)
 
 
 def _checked(settings: Settings) -> Settings:
@@ -83,14 +110,15 @@ def _checked(settings: Settings) -> Settings:
     return settings
 
 
-def _check_classes(results: StudyResults) -> None:
-    """InputError for the first label of the study none of whose cases finished."""
+def check_classes(results: StudyResults, folder: DatasetFolder) -> None:
+    """InputError for the first label of the study none of whose cases is recorded."""
     done: dict[tuple[str, str], int] = {}
     reasons: dict[tuple[str, str], str] = {}
-    for row in results.rows:
+    recorded = [folder.has(row.planned.hash) for row in results.rows]
+    for row, has in zip(results.rows, recorded):
         for column, label in row.planned.point.labels.items():
             if column != SAMPLE:
-                done[column, label] = done.get((column, label), 0) + (row.state == "done")
+                done[column, label] = done.get((column, label), 0) + has
                 reasons.setdefault((column, label), row.reason)
     for (column, label), count in done.items():
         if not count:
@@ -100,31 +128,18 @@ def _check_classes(results: StudyResults) -> None:
                 where=column,
                 value=label,
             )
-    if not any(row.state == "done" for row in results.rows):
+    if not any(recorded):
         raise InputError(f"No case of the study finished: {results.rows[0].reason}.", where="study")
 
 
-def _record(
-    results: StudyResults, folder: DatasetFolder, settings: Settings, progress: Any
-) -> None:
-    """Add the recordings that the folder lacks."""
-    todo = [r.planned for r in results.rows if r.state == "done" and not folder.has(r.planned.hash)]
-    with (progress or Silent)(len(todo), "recordings") as bar:
-        for planned in todo:
-            run = load_run(results.folder.case(planned.hash))
-            row = results.stored[planned.hash]
-            made = recording_of(run, planned, row, folder.name, settings.edges)
-            folder.add(planned.hash, made)
-            bar.advance()
-
-
-def write_index(folder: DatasetFolder, settings: Settings) -> None:
-    """Tables and cards of all recordings of a folder, which then has all that it should.
-    InputError for a class of severity without recordings."""
+def write_index(folder: DatasetFolder, settings: Settings, *, whole: bool = True) -> None:
+    """Tables and cards of all recordings of a folder. InputError for a class of severity without
+    recordings, if these are the ``whole`` data set."""
     records = folder.records()
     rows = [row for record in records for row in record["rows"]]
     truth = [record["truth"] for record in records]
-    _check_severities(rows, settings.edges)
+    if whole:
+        _check_severities(rows, settings.edges)
     splits = splits_of(truth)
     tables = {
         "metadata.parquet": _table(rows), "truth.parquet": _table(truth),

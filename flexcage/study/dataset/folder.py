@@ -9,7 +9,8 @@
     checksums.json                    SHA-256 of all these files
     records/<hash>.json               a recording that is complete: its rows and its files' SHA-256
     settings.json                     what all its recordings share
-    study/                            the runs (they may be removed once the data set is complete)
+    study/                            the figures of the cases, and their runs if these are kept
+    shards/<i>-of-<n>/                a part that one process makes: recordings and study/, as here
 
 A recording counts once its record is there, which is written last; every file is written aside and
 moved into place. Recordings are only added. The tables and cards are made of the records.
@@ -30,8 +31,9 @@ from flexcage.core.hashing import seal_holds, sealed
 from flexcage.core.locks import LOCK, held
 from flexcage.core.output_folders import check_no_file
 from flexcage.core.reading import read_json, table_of
-from flexcage.core.writing import check_own, replace
+from flexcage.core.writing import SPARE, check_own, replace, written
 from flexcage.study.dataset.recording import Recording, digest
+from flexcage.study.folder import SHARDS
 
 FORMAT = 1  # of a data set's folder
 SCHEMA = 2  # of the metadata table: that of bearing-datasets 0.2 and 0.3
@@ -41,6 +43,7 @@ INDEX = (
 )  # fmt: skip
 CHECKSUMS = "checksums.json"
 _FOLDERS = ("signals", "truth", "records")
+_BEGUN = (LOCK, SHARDS, *_FOLDERS)  # what may be there before settings are
 
 
 @dataclass(frozen=True)
@@ -82,9 +85,9 @@ class DatasetFolder:
                     "are asked for; take the same, or another folder.",
                     where="dataset",
                 )
-            settings = stored
-        elif self.path.is_dir() and any(
-            p.name not in (LOCK, "settings.json.new", *_FOLDERS) for p in self.path.iterdir()
+            return stored
+        if self.path.is_dir() and any(
+            p.name not in _BEGUN and not p.name.startswith(SPARE) for p in self.path.iterdir()
         ):
             raise InputError(
                 f"'{self.path}' holds files and no data set; name an empty or a new folder.",
@@ -92,7 +95,9 @@ class DatasetFolder:
             )  # fmt: skip
         for folder in _FOLDERS:
             (self.path / folder).mkdir(parents=True, exist_ok=True)
-        self._write_json("settings.json", {"format": FORMAT, "schema": SCHEMA, **asdict(settings)})
+        table = sealed({"format": FORMAT, "schema": SCHEMA, **asdict(settings)})
+        with written(file) as spare:  # shards may begin at the same moment
+            spare.write_text(json.dumps(table, indent=1) + "\n", "utf-8")
         return settings
 
     def settings(self) -> Settings:
@@ -132,6 +137,10 @@ class DatasetFolder:
         """Records of all complete recordings, by name; InputError for one that was edited."""
         names = sorted(p.name for p in (self.path / "records").glob("*.json"))
         return [self._sealed(f"records/{name}") for name in names]
+
+    def record(self, recording: str) -> dict[str, Any]:
+        """Record of one complete recording."""
+        return self._sealed(f"records/{recording}.json")
 
     def write_index(self, files: Mapping[str, bytes]) -> None:
         """Write tables and cards, then the checksums of all."""

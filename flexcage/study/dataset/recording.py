@@ -16,8 +16,8 @@ from flexcage.case import Case
 from flexcage.results.features import cage_motion_features
 from flexcage.results.frequencies import bearing_frequencies
 from flexcage.results.metrics import pocket_peaks, settled
+from flexcage.study.case_row import CaseRow
 from flexcage.study.dataset import labels
-from flexcage.study.folder import CaseRow
 from flexcage.study.plan import Planned
 
 if TYPE_CHECKING:
