@@ -71,7 +71,13 @@ def test_a_sensor_that_cannot_be_is_one_sentence(changes, words):
     assert "\n" not in str(told.value)
 
 
-GAUGE = {"type": "strain_gauge", "name": "g", "side": "-x", "grid": "2 mm", "noise": "1 um/m/Hz^0.5"}
+GAUGE = {
+    "type": "strain_gauge",
+    "name": "g",
+    "side": "-x",
+    "grid": "2 mm",
+    "noise": "1 um/m/Hz^0.5",
+}
 
 
 @pytest.mark.parametrize(

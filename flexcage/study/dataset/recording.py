@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.case import Case
-from flexcage.results.features import cage_motion_features
+from flexcage.results.features import cage_motion_features, orbit_class
 from flexcage.results.frequencies import bearing_frequencies
 from flexcage.results.metrics import pocket_peaks, settled
 from flexcage.study.dataset import labels
@@ -27,8 +27,14 @@ if TYPE_CHECKING:
 
 #: The schema's unit of each SI unit of a signal, and its place of a sensor.
 _UNITS = {"m/s^2": "m/s^2", "m": "m", "N m": "Nm", "1": "normalized"}
-_MOUNTED = {"outer_ring": "outer_ring", "inner_ring": "shaft", "cage": "none"}
-_AXES = {"axial": "axial", "0": "y", "90": "z", "180": "y", "270": "z", "none": "none"}
+_NONE_OF_ITS_OWN = {"strain": ("unknown", "unknown")}  # quantities that the schema has no word for
+_MOUNTED = {
+    "outer_ring": "outer_ring", "inner_ring": "shaft", "cage": "none", "housing": "pedestal",
+}  # fmt: skip
+_AXES = {
+    "axial": "axial", "0": "y", "90": "z", "180": "y", "270": "z", "none": "none",
+    "circumferential": "tangential",
+}  # fmt: skip
 TRUTH_VARIABLES = ("outer_race_force", "inner_race_force", "defect_force")
 
 
@@ -87,10 +93,11 @@ def _of_channel(
     case: Case, channel: str, signal: xarray.DataArray, file: str, k: int
 ) -> dict[str, Any]:
     attrs = signal.attrs
+    own = (attrs["quantity"], _UNITS[attrs["units"]])
+    quantity, unit = _NONE_OF_ITS_OWN.get(attrs["quantity"], own)
     return {
         "signal_id": f"{case.hash}/{channel}", "channel": channel, "fs": float(attrs["rate"]),
-        "n_samples": int(signal.size), "quantity": attrs["quantity"],
-        "unit": _UNITS[attrs["units"]], "sensitivity": "none",
+        "n_samples": int(signal.size), "quantity": quantity, "unit": unit, "sensitivity": "none",
         "axis": _AXES.get(str(attrs["direction"]), "radial"),
         "sensor_mounting": _MOUNTED[attrs["place"]], "signal_file": file, "signal_row_group": 0,
         "signal_row": k,
@@ -120,6 +127,8 @@ def _truth(
         features = cage_motion_features(part)
         found["whirl_speed_ratio"] = features.whirl_speed_ratio
         found["motion"] = _motion(features.whirl_speed_ratio)
+        orbit = orbit_class(part)
+        found["motion_class"] = "not known" if orbit is None else orbit.kind
     for name, figure in row.figures.items():
         number = isinstance(figure.value, (int, float)) and not isinstance(figure.value, bool)
         timed = name.startswith("wall_")  # another computer's would differ
