@@ -102,7 +102,7 @@ class RunRecord:
         """Signals of these sensors, whatever the case has (``results.signals``)."""
         from flexcage.run.sensors import run_signals
 
-        return run_signals(self, sensors)
+        return run_signals(self.case, self.dataset, self.numbers, sensors, lambda: self.cage_stress)
 
     @cached_property
     def events(self) -> xarray.Dataset:

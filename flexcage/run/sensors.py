@@ -3,7 +3,7 @@ accelerometers on its elastic housing."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     import xarray
 
     from flexcage.results.signals.housing import HousingPath
-    from flexcage.run.record import RunRecord
+    from flexcage.results.slip import BearingNumbers
+    from flexcage.stress.run_stress import RunStress
 
 
 def check_places(case: Case, cage: CageReduction | None) -> None:
@@ -36,32 +37,27 @@ def check_places(case: Case, cage: CageReduction | None) -> None:
         _housing_path(case, sensor)
 
 
-def run_signals(run: RunRecord, sensors: Sequence[Sensor]) -> xarray.Dataset:
-    """Signals of these sensors in a run, whatever its case has (``results.signals``)."""
-    case, ds = run.case, run.dataset
+def run_signals(
+    case: Case, ds: xarray.Dataset, numbers: BearingNumbers, sensors: Sequence[Sensor],
+    stress: Callable[[], RunStress],
+) -> xarray.Dataset:  # fmt: skip
+    """Signals of these sensors in a run of the case, whatever sensors the case has
+    (``results.signals``); ``stress`` gives that of its cage."""
     sensors = checked_sensors(case, sensors)
     rpm = float(ds["inner_speed"].mean()) * 30.0 / np.pi
-    lines = own_frequencies(settled(ds, case.output.settle), run.numbers)
+    lines = own_frequencies(settled(ds, case.output.settle), numbers)
     attrs = {
-        "case": case.name, "hash": case.hash, "bearing": run.bearing.designation,
+        "case": case.name, "hash": case.hash, "bearing": case.mounted.bearing.designation,
         "flexcage": __version__, "speed (rpm)": rpm,
         **{f"{k} (Hz)": v for k, v in lines.items()},
     }  # fmt: skip
-    return signals_of(
-        ds, sensors, cage=case.cage, settle=case.output.settle, attrs=attrs,
-        computed=_computed(run, sensors),
-    )  # fmt: skip
-
-
-def _computed(run: RunRecord, sensors: Sequence[Sensor]) -> dict[str, np.ndarray]:
-    """Values at the samples of the sensors that see more than the run recorded, by name."""
-    found = {}
+    computed = {s.name: _housing_path(case, s).acceleration(ds) for s in _on_housing(sensors)}
     if gauges := _gauges(sensors):
-        strains = run.cage_stress.strains(gauges, run.case.its_cage.mean_radius)
-        found = {gauge.name: own for gauge, own in zip(gauges, strains)}
-    for sensor in _on_housing(sensors):
-        found[sensor.name] = _housing_path(run.case, sensor).acceleration(run.dataset)
-    return found
+        strains = stress().strains(gauges, case.its_cage.mean_radius)
+        computed |= {gauge.name: own for gauge, own in zip(gauges, strains)}
+    return signals_of(
+        ds, sensors, cage=case.cage, settle=case.output.settle, attrs=attrs, computed=computed
+    )
 
 
 def _gauges(sensors: Sequence[Sensor]) -> list[StrainGauge]:

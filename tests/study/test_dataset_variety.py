@@ -148,3 +148,31 @@ def test_faults_of_every_cage_have_a_name_and_a_size(cage, defect, size):
     assert labels.cage_faults(case) == defect["type"]
     both = load_case({**base, "defects": [defect]}, overrides={"cage.unbalance": "0.1 g*mm"})
     assert labels.cage_faults(both) == f"{defect['type']}+unbalance"
+
+
+@pytest.mark.parametrize(
+    ("sensor", "wanted"),
+    [
+        ({"type": "strain_gauge", "name": "a", "side": "-x"},
+         ("unknown", "unknown", "tangential", "none")),
+        ({"type": "accelerometer", "name": "a", "direction": "90 deg"},
+         ("acceleration", "m/s^2", "z", "outer_ring")),
+    ],
+)  # fmt: skip
+def test_signals_have_words_of_the_schema(sensor, wanted):
+    """The schema has none for strain."""
+    from types import SimpleNamespace
+
+    from flexcage.study.dataset.recording import channel_row
+
+    case = load_case({"bearing": {"preset": "N1013"}, "sensors": [sensor]})
+    (own,) = case.sensors
+    attrs = {"rate": 1.0, "quantity": own.quantity, "units": own.unit, "place": own.place,
+             "direction": own.towards}  # fmt: skip
+    row = channel_row(case, own.name, SimpleNamespace(attrs=attrs, size=3), "f", 0)
+    assert tuple(row[k] for k in ("quantity", "unit", "axis", "sensor_mounting")) == wanted
+    schema = pytest.importorskip("bearing_datasets.schema")
+    units = pytest.importorskip("bearing_datasets.units")
+    assert row["quantity"] in schema.QUANTITIES
+    assert row["unit"] in units.allowed_units(row["quantity"])
+    assert row["axis"] in schema.VOCABULARIES["axis"]

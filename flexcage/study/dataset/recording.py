@@ -59,7 +59,7 @@ def recording_of(run: Run, planned: Planned, row: CaseRow, name: str, edges: tup
     }
     shared = _of_case(case, run, planned, name, edges)
     rows = [
-        {**shared, **_of_channel(case, str(n), s, file, k)}
+        {**shared, **channel_row(case, str(n), s, file, k)}
         for k, (n, s) in enumerate(signals.data_vars.items())
     ]
     return Recording(files, rows, _truth(case, run, planned, row, shared))
@@ -89,9 +89,10 @@ def _of_case(case: Case, run: Run, planned: Planned, name: str, edges: tuple) ->
     }  # fmt: skip
 
 
-def _of_channel(
+def channel_row(
     case: Case, channel: str, signal: xarray.DataArray, file: str, k: int
 ) -> dict[str, Any]:
+    """What the metadata table says of a channel, whose samples are row ``k`` of a file."""
     attrs = signal.attrs
     own = (attrs["quantity"], _UNITS[attrs["units"]])
     quantity, unit = _NONE_OF_ITS_OWN.get(attrs["quantity"], own)
