@@ -21,6 +21,7 @@ from flexcage.run import Run, warnings_at_start
 from flexcage.run.cost import note_pace, report_cost
 from flexcage.run.folder import begun_store, check_written, open_folder, report_unfinished
 from flexcage.run.foreseen import already_reported, report_before
+from flexcage.run.sensors import check_places
 from flexcage.run.storing import run_store, stored_cage
 from flexcage.stages import assembled_start, made_cage
 
@@ -74,6 +75,7 @@ def _simulated(
     else:
         mesh, cage = made_cage(case, stages)
     bearing = stages.named("kernels", build_bearing, case, mesh, cage, compiling)
+    check_places(case, cage)
     start = stages("start", assembled_start, case, bearing, stages.progress)
     warned = (*foreseen, *warnings_at_start(case, mesh, cage, start))
     store = begun or run_store(

@@ -41,6 +41,7 @@ from flexcage.results.signals.spec import Accelerometer as Accelerometer
 from flexcage.results.signals.spec import Laser as Laser
 from flexcage.results.signals.spec import Proximity as Proximity
 from flexcage.results.signals.spec import Sensor as Sensor
+from flexcage.results.signals.spec import StrainGauge as StrainGauge
 from flexcage.results.signals.spec import Tacho as Tacho
 from flexcage.results.signals.spec import Torque as Torque
 from flexcage.solve.options import SolverOptions as SolverOptions

@@ -12,10 +12,21 @@ from flexcage.core.binding import Binder, check_spec, expect, path_of
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option
 from flexcage.core.units import describe
+from flexcage.geometry.cage import Cage
 from flexcage.results.registry import TIME_HF
 from flexcage.results.signals.chain import ratio
 from flexcage.results.signals.sources import grid_of
-from flexcage.results.signals.spec import CAGE, OF_A_CHAIN, OUTER, Laser, Sensor, Tacho
+from flexcage.results.signals.spec import (
+    ALONG,
+    CAGE,
+    HOUSING,
+    OF_A_CHAIN,
+    OUTER,
+    Laser,
+    Sensor,
+    StrainGauge,
+    Tacho,
+)
 
 Finding = tuple[str, str]  # where, sentence
 
@@ -89,6 +100,10 @@ def _in_place(case: CaseSections, sensor: Sensor, where: str) -> Iterator[Findin
             f"{where} ('{sensor.name}') reads along the axis, but the outer ring's acceleration is "
             "recorded across it; give a direction instead.",
         )
+    if sensor.place == HOUSING:
+        yield from _on_housing(case, sensor, where)
+    if isinstance(sensor, StrainGauge) and case.cage is not None:
+        yield from _on_surface(case, sensor, case.cage, where)
     if isinstance(sensor, Laser) and case.cage is not None:
         half = 0.5 * case.cage.width
         if abs(sensor.plane) > half:
@@ -97,6 +112,51 @@ def _in_place(case: CaseSections, sensor: Sensor, where: str) -> Iterator[Findin
                 f"{where}.plane is {describe(sensor.plane, 'mm')}, but the cage ends at "
                 f"{describe(half, 'mm')}; give a plane on the cage.",
             )
+
+
+def _on_housing(case: CaseSections, sensor: Sensor, where: str) -> Iterator[Finding]:
+    if not case.mount.body:
+        yield (
+            where,
+            f"{where} ('{sensor.name}') is on a node of the housing, but the case has none: give "
+            "mount.body, or the sensor another place.",
+        )
+    elif not getattr(sensor, "node", 1):
+        yield (
+            f"{where}.node",
+            f"{where} ('{sensor.name}') is on the housing; give the number of its node there "
+            "(node).",
+        )
+
+
+def _on_surface(
+    case: CaseSections, gauge: StrainGauge, cage: Cage, where: str
+) -> Iterator[Finding]:
+    if case.cage_model == "rigid":
+        yield (
+            where,
+            f"{where} ('{gauge.name}') is a strain gauge, but a rigid cage has no strain; run the "
+            "case with cage.model = 'flexible', or leave the sensor out.",
+        )
+    count = case.bearing.element_count
+    if gauge.crossbeam is not None and gauge.crossbeam >= count:
+        yield (
+            f"{where}.crossbeam",
+            f"{where}.crossbeam is {gauge.crossbeam}, but the cage's crossbeams are numbered 0 to "
+            f"{count - 1}.",
+        )
+    if gauge.along not in ALONG[gauge.side]:
+        yield (
+            f"{where}.along",
+            f"{where}.along is '{gauge.along}', but a gauge on the side '{gauge.side}' lies "
+            f"{' or '.join(ALONG[gauge.side])}.",
+        )
+    if gauge.radius and not 0.5 * cage.bore <= gauge.radius <= 0.5 * cage.outside_diameter:
+        yield (
+            f"{where}.radius",
+            f"{where}.radius is {describe(gauge.radius, 'mm')}, but the cage reaches from "
+            f"{describe(0.5 * cage.bore, 'mm')} to {describe(0.5 * cage.outside_diameter, 'mm')}.",
+        )
 
 
 def _in_rates(case: CaseSections, sensor: Sensor, where: str) -> Iterator[Finding]:

@@ -13,7 +13,7 @@ from typing import Any, ClassVar, Literal, NamedTuple, TypeVar
 
 import numpy as np
 
-from flexcage.core.binding import did_you_mean
+from flexcage.core.binding import did_you_mean, parts_of_length
 from flexcage.core.errors import InputError
 from flexcage.core.registry import check_free, note_source
 from flexcage.core.spec import option
@@ -86,6 +86,11 @@ class CageDefect:
     def place(self) -> float:
         """Place around the cage, counted in pockets."""
         return float(self.number) if self.part == "pocket" else self.number - 0.5
+
+    def extent(self, cage: Cage) -> float:
+        """How large it is [m], by which data sets grade it: the largest of its lengths; 0 without
+        any."""
+        return max((abs(value) for value in parts_of_length(self)), default=0.0)
 
     def pockets(self, count: int) -> list[int]:
         """Pockets that it touches, of ``count``; the one behind a beam or web first."""

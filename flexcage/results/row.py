@@ -18,6 +18,7 @@ SHOWN: dict[str, tuple[str, float]] = {
     "%": ("1", 100.0),
     "um": ("m", 1e6),
     "mm": ("m", 1e3),
+    "um/m": ("1", 1e6),
     "m/s": ("m/s", 1.0),
     "m/s^2": ("m/s^2", 1.0),
     "mrad": ("rad", 1e3),

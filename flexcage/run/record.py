@@ -9,10 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from flexcage._version import __version__
 from flexcage.cages import cage_type_of, riveted_cages
 from flexcage.case import Case
-from flexcage.case.sensor_checks import checked_sensors
 from flexcage.core.binding import check_spec, expect, path_of
 from flexcage.core.errors import InputError
 from flexcage.core.output_folders import check_no_file
@@ -26,7 +24,6 @@ from flexcage.modes.reduction import CageReduction
 from flexcage.modes.table import ModeTable
 from flexcage.results.edges import Edge, groove_edges
 from flexcage.results.film import film_thickness
-from flexcage.results.frequencies import own_frequencies
 from flexcage.results.metrics import settled
 from flexcage.results.signals.spec import Sensor
 from flexcage.results.slip import BearingNumbers
@@ -103,20 +100,9 @@ class RunRecord:
 
     def signals_of(self, sensors: Sequence[Sensor]) -> xarray.Dataset:
         """Signals of these sensors, whatever the case has (``results.signals``)."""
-        from flexcage.results.signals.signals import signals_of
+        from flexcage.run.sensors import run_signals
 
-        case = self.case
-        sensors = checked_sensors(case, sensors)
-        rpm = float(self.dataset["inner_speed"].mean()) * 30.0 / np.pi
-        part = settled(self.dataset, case.output.settle)
-        lines = {f"{k} (Hz)": v for k, v in own_frequencies(part, self.numbers).items()}
-        attrs = {
-            "case": case.name, "hash": case.hash, "bearing": self.bearing.designation,
-            "flexcage": __version__, "speed (rpm)": rpm, **lines,
-        }  # fmt: skip
-        return signals_of(
-            self.dataset, sensors, cage=case.cage, settle=case.output.settle, attrs=attrs
-        )
+        return run_signals(self.case, self.dataset, self.numbers, sensors, lambda: self.cage_stress)
 
     @cached_property
     def events(self) -> xarray.Dataset:

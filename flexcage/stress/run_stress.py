@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -18,6 +18,7 @@ from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.reduction import CageReduction
 from flexcage.results.figures.stress import Stressed
 from flexcage.results.metrics import carrier_angle, element, settled
+from flexcage.results.signals.spec import StrainGauge
 from flexcage.results.slip import BearingNumbers
 from flexcage.results.statistics import element_passes
 from flexcage.results.store import MemoryRunStore
@@ -25,6 +26,7 @@ from flexcage.stress.between import StoredSteps
 from flexcage.stress.counting import require_pylife
 from flexcage.stress.fatigue import Fatigue, chosen_places, counted_stress, place_fatigue
 from flexcage.stress.fields import StressFields, TensorFields
+from flexcage.stress.gauges import gauge_fields
 from flexcage.stress.history import StressHistory, histories_at, stress_bound, stress_history
 from flexcage.stress.loads import LandLoads, cage_loads
 from flexcage.stress.operators import von_mises
@@ -196,6 +198,13 @@ class RunStress:
             settled=self._first_settled,
             between=self._between,
         )
+
+    @one_blas_thread
+    def strains(self, gauges: Sequence[StrainGauge], radius: float) -> np.ndarray:
+        """Strains (n_gauges, nt) [1] of gauges at the samples; ``radius`` [m] of the middle of the
+        cage's wall. InputError for a gauge beside the cage's surface."""
+        fields = gauge_fields(self.recovery, gauges, radius)
+        return fields.strains(*self._moved_and_pushed(self.dataset))
 
     @property
     def figures(self) -> Stressed:

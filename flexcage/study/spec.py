@@ -210,6 +210,8 @@ def _as_text(case: Case, path: str, value: Any, *, si: bool) -> Any:
         return format_si(value if si else parse(value, unit, where=path), unit)
     if isinstance(value, (str, bool, int, float)):
         return value
+    if isinstance(value, (list, tuple)) and unit:  # of a table, whose lists go together
+        return [_as_text(case, path, each, si=si) for each in value]
     return value_at(case.replace(path, value, si=si).to_table(), path)
 
 

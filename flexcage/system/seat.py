@@ -14,6 +14,7 @@ which is exact at rest (Guyan, AIAA Journal 3 (1965) 380).
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -37,13 +38,24 @@ _SINGULAR = 1e-11  # of the scaled stiffness's largest eigenvalue
 _FIVE = [0, 1, 2, 4, 5]  # x, y, z and tilts about y, z of six motions
 
 
-def seat_compliance(mount: Mount, *, diameter: float, width: float) -> np.ndarray:
-    """Displacements (5,5) [m/N, rad/(N m) ...] of the outer ring's frame under unit forces and
-    moments on it: x, y, z and tilts about y, z, at the bearing's centre.
+@dataclass(frozen=True)
+class Seated:
+    """A housing with a ring on its seat: coordinates ``tie`` z of the body (n, m), and motions
+    ``ring.T`` z of the ring's frame (m, 6): x, y, z and turns about them."""
 
-    ``diameter`` and ``width`` [m] of the ring's seat. InputError for a housing that is not held, or
-    whose nodes are not at the seat.
-    """
+    body: ReducedBody
+    tie: sp.csr_matrix
+    ring: np.ndarray
+
+    @property
+    def stiffness(self) -> sp.csr_matrix:
+        """Stiffness (m, m) on z."""
+        return sp.csr_matrix(self.tie.T @ sp.csr_matrix(self.body.stiffness) @ self.tie)
+
+
+def seated(mount: Mount, *, diameter: float, width: float) -> Seated:
+    """The housing ``mount.body`` with the outer ring on its seat, of this ``diameter`` and
+    ``width`` [m]. InputError for nodes that are not at the seat."""
     body = read_body(mount.body, nodes=mount.body_nodes, units=mount.body_units, where=WHERE)
     nodes = seat_nodes(body, mount, diameter=diameter, width=width)
     own = np.flatnonzero(np.isin(body.dofs[:, 0], nodes))
@@ -51,9 +63,23 @@ def seat_compliance(mount: Mount, *, diameter: float, width: float) -> np.ndarra
         own = own[body.dofs[own, 1] < 3]  # turns of single nodes say nothing of the seat's
     motions = _motions(body, own)
     _check_rank(body, motions, diameter)
-    make = _following if mount.seat_tie == "rigid" else _averaged
-    whole = make(body, [own], [motions])
-    return 0.5 * (whole + whole.T)[np.ix_(_FIVE, _FIVE)]
+    return _TIES[mount.seat_tie](body, [own], [motions])
+
+
+def seat_compliance(mount: Mount, *, diameter: float, width: float) -> np.ndarray:
+    """Displacements (5,5) [m/N, rad/(N m) ...] of the outer ring's frame under unit forces and
+    moments on it: x, y, z and tilts about y, z, at the bearing's centre.
+
+    ``diameter`` and ``width`` [m] of the ring's seat. InputError for a housing that is not held, or
+    whose nodes are not at the seat.
+    """
+    return _compliance(seated(mount, diameter=diameter, width=width), np.array(_FIVE))
+
+
+def _compliance(housing: Seated, chosen: np.ndarray) -> np.ndarray:
+    """Of the frames on the housing, symmetric, for the motions ``chosen`` of them."""
+    whole = housing.ring.T @ solved(housing.body, housing.stiffness, housing.ring)
+    return np.asarray(0.5 * (whole + whole.T)[np.ix_(chosen, chosen)])
 
 
 def seats_compliance(
@@ -75,10 +101,8 @@ def seats_compliance(
         own.append(rows)
         motions.append(_motions(body, rows, centre))
         _check_rank(body, motions[-1], diameter)
-    make = _following if tie == "rigid" else _averaged
-    whole = make(body, own, motions)
     five = (6 * np.arange(len(places))[:, None] + _FIVE).ravel()
-    return 0.5 * (whole + whole.T)[np.ix_(five, five)]
+    return _compliance(_TIES[tie](body, own, motions), five)
 
 
 def _nodes_at(
@@ -196,30 +220,32 @@ def _check_rank(body: ReducedBody, motions: np.ndarray, diameter: float) -> None
 
 def _following(
     body: ReducedBody, own: Sequence[np.ndarray], motions: Sequence[np.ndarray]
-) -> np.ndarray:
-    """Compliance (6 b, 6 b) of rings that their seats follow."""
+) -> Seated:
+    """Rings that their seats follow."""
     rest, many = np.setdiff1d(np.arange(body.size), np.concatenate(own)), 6 * len(own)
     columns = np.concatenate([*(np.repeat(rows, 6) for rows in own), rest])
     rings = [np.tile(6 * k + np.arange(6), len(rows)) for k, rows in enumerate(own)]
     rows = np.concatenate([*rings, many + np.arange(len(rest))])
     values = np.concatenate([*(m.ravel() for m in motions), np.ones(len(rest))])
     tie = sp.csr_matrix((values, (columns, rows)), shape=(body.size, many + len(rest)))
-    load = np.eye(many + len(rest), many)
-    return _solved(body, tie.T @ sp.csr_matrix(body.stiffness) @ tie, load)[:many]
+    return Seated(body, tie, np.eye(many + len(rest), many))
 
 
 def _averaged(
     body: ReducedBody, own: Sequence[np.ndarray], motions: Sequence[np.ndarray]
-) -> np.ndarray:
-    """Compliance (6 b, 6 b) of rings that follow their seats' mean rigid motions."""
+) -> Seated:
+    """Rings that follow their seats' mean rigid motions."""
     share = np.zeros((body.size, 6 * len(own)))
     for k, (rows, moves) in enumerate(zip(own, motions)):
         share[rows, 6 * k : 6 * k + 6] = moves @ np.linalg.inv(moves.T @ moves)
-    return share.T @ _solved(body, sp.csr_matrix(body.stiffness), share)
+    return Seated(body, sp.identity(body.size, format="csr"), share)
 
 
-def _solved(body: ReducedBody, stiffness: Any, loads: np.ndarray) -> np.ndarray:
-    """Displacements (n, 6) under loads; InputError where nothing holds the body."""
+_TIES = {"rigid": _following, "average": _averaged}
+
+
+def solved(body: ReducedBody, stiffness: Any, loads: np.ndarray) -> np.ndarray:
+    """Displacements (n, k) under loads (n, k); InputError where nothing holds the body."""
     try:
         if body.size > 2000:
             return linear_solver(stiffness, kind=available_kinds()[0]).solve(loads)

@@ -45,7 +45,8 @@ def test_a_case_keeps_its_sensors_and_counts_them():
         ({"sensors.1.rate": "60 kHz"}, "records what it sees at 50 kHz; raise output.rate"),
         ({"sensors.0.rate": "33.333337 kHz"}, "no simple ratio"),
         ({"sensors.0.place": "shaft"}, "take 'inner_ring'"),
-        ({"sensors.0.place": "housing node 3"}, "the outer ring moves with its seat there"),
+        ({"sensors.0.place": "housing node 3"}, "take 'housing' with a node of mount.body"),
+        ({"sensors.0.place": "housing"}, "on a node of the housing, but the case has none"),
         ({"sensors.1.place": "cagee"}, "the nearest known one is 'cage'"),
         ({"sensors.0.axial": True}, "recorded across it; give a direction"),
         ({"sensors.0.range": "0 m/s^2"}, "bits is 16, but the range.*give sensors.0.range"),
@@ -68,6 +69,40 @@ def test_a_sensor_that_cannot_be_is_one_sentence(changes, words):
     with pytest.raises(InputError, match=words) as told:
         sensed(**changes)
     assert "\n" not in str(told.value)
+
+
+GAUGE = {
+    "type": "strain_gauge",
+    "name": "g",
+    "side": "-x",
+    "grid": "2 mm",
+    "noise": "1 um/m/Hz^0.5",
+}
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"cage.model": "rigid"}, "is a strain gauge, but a rigid cage has no strain"),
+        ({"cage.model": "none"}, "is on the cage, but the bearing has none"),
+        ({"sensors.0.crossbeam": 9}, "is 9, but the cage's crossbeams are numbered 0 to 8"),
+        ({"sensors.0.along": "axial"}, "on the side '-x' lies circumferential or radial"),
+        ({"sensors.0.radius": "30 mm"}, "is 30 mm, but the cage reaches from 17.465 mm"),
+        ({"sensors.0.side": "top"}, "outside, inside"),
+        ({"sensors.0.grid": "0 mm"}, "grid"),
+    ],
+    ids=lambda value: next(iter(value)) if isinstance(value, dict) else None,
+)
+def test_a_gauge_that_cannot_be_is_one_sentence(changes, words):
+    with pytest.raises(InputError, match=words):
+        sensed(GAUGE, **{"cage.model": "flexible", **changes})
+
+
+def test_a_gauge_keeps_its_place():
+    case = sensed({**GAUGE, "crossbeam": 0}, **{"cage.model": "flexible"})
+    (gauge,) = load_case(case.to_toml()).sensors
+    assert (gauge.crossbeam, gauge.side, gauge.grid, gauge.noise) == (0, "-x", 2e-3, 1e-6)
+    assert gauge.towards == "circumferential" and gauge.unit == "1"
 
 
 def test_a_sensor_without_a_name_is_told_so():

@@ -28,12 +28,12 @@ CASES = {
     "README.md": ("",),
     "examples/cases.md": ("N1013", "", "", "15x37x10", "", "N1013", "N1013", "N1013", "7010C-PI"),
     "examples/fits.md": ("",),
-    "examples/signals.md": ("N1013",),
+    "examples/signals.md": ("N1013", "N1013"),
     "meshes/README.md": ("N1013",),
     "flexcage/cages/README.md": ("15x37x10",),
     "flexcage/modes/README.md": ("N1013",),
 }
-# a static case, a study, a map, a spectrum, a machine
+# a static case, a study, maps, a spectrum, machines, a case whose housing is a reader's
 NOT_CASES = {
     "examples/cases.md": 1,
     "examples/studies.md": 1,
@@ -41,6 +41,8 @@ NOT_CASES = {
     "examples/fits.md": 1,
     "examples/machines.md": 1,
     "examples/heat.md": 1,
+    "examples/signals.md": 1,
+    "examples/datasets.md": 1,
 }
 
 

@@ -162,6 +162,9 @@ class CrackedClaw(ClawDefect):
     type: str = defect_type("cracked_claw")
     share: float = option(doc="its depth over the thickness of the cage's wall, between 0 and 1")
 
+    def extent(self, cage: Any) -> float:
+        return self.fronts(cage)[0] - 0.5 * float(cage.bore)
+
     def fronts(self, cage: Any) -> Sequence[float]:
         return (0.5 * (cage.bore + self.share * (cage.outside_diameter - cage.bore)),)
 

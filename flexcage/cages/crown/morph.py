@@ -13,9 +13,9 @@ from types import MappingProxyType
 import numpy as np
 
 from flexcage.cages.crown.cage import CrownCage
-from flexcage.cages.round_pocket.crack import with_doubled
 from flexcage.geometry.defect import CageLine
 from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.mesh.doubling import with_doubled
 from flexcage.mesh.measure import in_pocket_frame
 from flexcage.mesh.ring import turn_about_x
 from flexcage.mesh.sector import orient_outward

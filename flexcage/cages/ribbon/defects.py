@@ -26,6 +26,9 @@ class MissingRivet(BallCageDefect):
     type: str = defect_type("missing_rivet")
     web: int = option(doc="web number, 0 .. Z-1; web k is between pockets k-1 and k", minimum=0)
 
+    def extent(self, cage: Any) -> float:
+        return float(cage.rivet_diameter)
+
     def opened(self, sound: CageMesh, mesh: CageMesh, cage: Any) -> CageMesh:
         from flexcage.cages.ribbon.rivet import without_rivet
         from flexcage.cages.ribbon.sector import stand_off

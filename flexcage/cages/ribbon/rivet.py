@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from flexcage.cages.round_pocket.crack import with_doubled
 from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.mesh.doubling import with_doubled
 from flexcage.mesh.halves import joined_vertices
 
 

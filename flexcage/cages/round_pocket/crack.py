@@ -1,15 +1,12 @@
-"""Cracks through the webs of a cage's mesh: vertices that are there twice."""
+"""Cracks through the webs of a cage's mesh."""
 
 from __future__ import annotations
-
-from collections.abc import Mapping
-from dataclasses import replace
-from types import MappingProxyType
 
 import numpy as np
 
 from flexcage.cages.round_pocket.cage import BallCage
 from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.mesh.doubling import opened_at
 from flexcage.mesh.measure import in_pocket_frame
 
 
@@ -24,27 +21,9 @@ def open_crack(
     x, y, t = in_pocket_frame(sound.points, web - 0.5, count).T
     tiny = 1e-6 * cage.width
     faces = (np.abs(t) < tiny) & (y > 0.0) & (sign * (x - tip) > tiny)
-    old = np.flatnonzero(faces)
-    copy = np.arange(len(mesh.points))
-    copy[old] = len(copy) + np.arange(len(old))
-    behind = _behind(sound, sound.tets, web)
-    tets = np.where(behind[:, None], copy[mesh.tets], mesh.tets)
-    groups = {
-        name: np.where(_behind(sound, sound.groups[name], web)[:, None], copy[part], part)
-        for name, part in mesh.groups.items()
-    }
-    points = np.vstack([mesh.points, mesh.points[old]])
-    info = with_doubled(mesh, old)
-    return replace(mesh, points=points, tets=tets, groups=MappingProxyType(groups), info=info)
 
+    def behind(centres: np.ndarray) -> np.ndarray:
+        """Do they lie on the side of pocket k-1 of web k, within half a turn?"""
+        return in_pocket_frame(centres, web - 0.5, count)[:, 2] < 0.0
 
-def with_doubled(mesh: CageMesh, old: np.ndarray) -> Mapping[str, object]:
-    """The mesh's info when copies of the vertices ``old``, no copies themselves, were added."""
-    before: tuple[int, ...] = mesh.info.get("doubled", ())  # type: ignore[assignment]
-    return MappingProxyType({**mesh.info, "doubled": (*before, *old.tolist())})
-
-
-def _behind(sound: CageMesh, cells: np.ndarray, web: int) -> np.ndarray:
-    """Which cells (n, .) lie on the side of pocket k-1 of web k, within half a turn."""
-    centres = sound.points[cells].mean(axis=1)
-    return in_pocket_frame(centres, web - 0.5, sound.pocket_count)[:, 2] < 0.0
+    return opened_at(sound, mesh, np.flatnonzero(faces), behind)

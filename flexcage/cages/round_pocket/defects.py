@@ -250,6 +250,9 @@ class WebCrack(BallCageDefect):
         """Add what it moves of the pockets' stations (angles [rad] from +psi towards +x) beyond
         their shapes to ``offset`` (Z, n_st, 3) [m], components (x, r, psi)."""
 
+    def extent(self, cage: Cage) -> float:
+        return self.share * cage.width
+
     def tips(self, cage: BallCage) -> Sequence[float]:
         return (abs(0.5 - self.share) * cage.width,)
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from flexcage.cages.cage_type import CageType
 from flexcage.cages.window import slots
+from flexcage.cages.window.broken import BrokenCrossbeam
 from flexcage.cages.window.cage import WindowCage
 from flexcage.cages.window.defects import CrossbeamDefect, SideBeamDefect, WindowDefect
 
 # specs that ``flexcage.spec`` shows
 __all__ = [
+    "BrokenCrossbeam",
     "CrossbeamDefect",
     "SideBeamDefect",
     "WindowCage",
@@ -23,6 +25,6 @@ CAGE_TYPE = CageType(
     interfaces=lambda: slots.interfaces,
     places=lambda: slots.places,
     proposal=lambda: slots.proposal,
-    defects=(CrossbeamDefect, SideBeamDefect),
+    defects=(CrossbeamDefect, SideBeamDefect, BrokenCrossbeam),
     defect_spec=WindowDefect,
 )

@@ -16,7 +16,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from math import copysign, cos, pi, sin
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -38,6 +38,9 @@ from flexcage.geometry.defect import (
 )
 from flexcage.mesh.measure import in_pocket_frame
 
+if TYPE_CHECKING:
+    from flexcage.mesh.cage_mesh import CageMesh
+
 _PINCH_LIMIT = 0.1  # of an element's size: far beyond what any cage material survives
 _LEGEND = (
     Mark("patch", "smaller", "pocket made narrower or shorter"),
@@ -53,6 +56,10 @@ class WindowDefect(CageDefect):
     def displace(self, points: np.ndarray, cage: WindowCage, *, pocket_count: int) -> np.ndarray:
         """Displacement (n, 3) [m] of points (n, 3) of the undamaged cage."""
         raise NotImplementedError(f"{type(self).__name__} does not say what it moves")
+
+    def opened(self, sound: CageMesh, mesh: CageMesh) -> CageMesh:
+        """``mesh``, numbered as the ``sound`` one but for doubled vertices, with what it opens."""
+        return mesh
 
     def offsets(self, points: np.ndarray, cage: WindowCage, *, pocket_count: int) -> np.ndarray:
         """Outward displacement (Z, 4, n) [m] of the pockets' faces, free of stress, at ``points``
@@ -214,7 +221,7 @@ class CrossbeamDefect(WindowDefect):
 
     @classmethod
     def check_together(cls, own: Sequence[CrossbeamDefect], count: int) -> Iterator[Finding]:
-        return _find_repeated(f"Crossbeam {d.crossbeam} is {d.shape}" for d in own)
+        return find_repeated(f"Crossbeam {d.crossbeam} is {d.shape}" for d in own)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -272,7 +279,7 @@ class SideBeamDefect(WindowDefect):
 
     @classmethod
     def check_together(cls, own: Sequence[SideBeamDefect], count: int) -> Iterator[Finding]:
-        return _find_repeated(
+        return find_repeated(
             f"The side beam {d.side} of pocket {d.pocket} is displaced" for d in own
         )
 
@@ -332,11 +339,11 @@ def _check_sizes(defects: Sequence[WindowDefect], cage: WindowCage, pocket_count
             )
 
 
-def _find_repeated(names: Iterable[str]) -> Iterator[Finding]:
-    """A beam that is displaced more than once in one way."""
+def find_repeated(names: Iterable[str]) -> Iterator[Finding]:
+    """A beam that has the same defect more than once."""
     for what, times in Counter(names).items():
         if times > 1:
-            yield "defects", f"{what} {times} times; give one defect with its displacement.", times
+            yield "defects", f"{what} {times} times; give one such defect.", times
 
 
 def _check_displacement(

@@ -1,5 +1,5 @@
-"""Defects of window cages as smooth displacements of the mesh's vertices; numbering and groups
-stay."""
+"""Defects of window cages on the mesh: smooth displacements of its vertices, and crossbeams that
+are broken in two."""
 
 from __future__ import annotations
 
@@ -7,10 +7,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from flexcage.cages.window.cage import WindowCage
 from flexcage.cages.window.defects import WindowDefect
 from flexcage.core.errors import InputError
 from flexcage.mesh.cage_mesh import CageMesh, signed_volumes
+from flexcage.mesh.doubling import doubled, opened_at
+from flexcage.mesh.measure import in_pocket_frame
 from flexcage.mesh.with_defects import add_defects
 
 MOST_CHANGE = 1e-3  # of the volume, by one defect
@@ -23,7 +27,8 @@ def apply_defects(
 
     def add(mesh: CageMesh, i: int) -> CageMesh:
         step = defects[i].displace(sound.points, cage, pocket_count=sound.pocket_count)
-        return replace(mesh, points=mesh.points + step)
+        every = np.append(np.arange(len(step)), np.array(doubled(mesh), int))
+        return defects[i].opened(sound, replace(mesh, points=mesh.points + step[every]))
 
     mesh = add_defects(sound, cage, defects, pitch_radius=pitch_radius, add=add)
     report: Sequence[Mapping[str, Any]] = mesh.info["defects"]  # type: ignore[assignment]
@@ -57,3 +62,30 @@ def _refuse_swollen(report: Sequence[Mapping[str, Any]], defects: Sequence[Windo
                 where=f"defects.{i}.displacement",
                 value=found["asked"],
             )
+
+
+def break_crossbeam(sound: CageMesh, mesh: CageMesh, crossbeam: int) -> CageMesh:
+    """``mesh``, numbered as ``sound`` but for copies, with a crossbeam cut in its middle plane."""
+    x, radial, tangential = in_pocket_frame(sound.points, crossbeam - 0.5, sound.pocket_count).T
+    near = np.abs(np.arctan2(tangential, radial)) < np.pi / sound.pocket_count
+    tiny = 1e-6 * np.ptp(x)
+    cut = np.flatnonzero(near & (np.abs(x) < tiny))
+
+    def behind(centres: np.ndarray) -> np.ndarray:
+        _, radial, tangential = in_pocket_frame(centres, crossbeam - 0.5, sound.pocket_count).T
+        own = np.abs(np.arctan2(tangential, radial)) < np.pi / sound.pocket_count
+        return own & (centres[:, 0] > 0.0)
+
+    return opened_at(sound, mesh, cut, behind)
+
+
+def cut_height(mesh: CageMesh, crossbeam: int) -> float:
+    """Height [m] of the cut through a crossbeam's middle, of vertices that are there twice; 0
+    without any."""
+    places = mesh.points[list(doubled(mesh))]
+    if not len(places):
+        return 0.0
+    x, radial, tangential = in_pocket_frame(places, crossbeam - 0.5, mesh.pocket_count).T
+    own = np.abs(np.arctan2(tangential, radial)) < np.pi / mesh.pocket_count
+    r = np.hypot(radial, tangential)[own]
+    return float(np.ptp(r)) if len(r) else 0.0

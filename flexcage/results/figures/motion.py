@@ -2,11 +2,23 @@
 
 from __future__ import annotations
 
+from flexcage.results.features import OrbitClass, orbit_class
 from flexcage.results.figures.figure import FigureTable, Found
 from flexcage.results.figures.part import SettledRun
 from flexcage.results.metrics import velocity_deviation
 
 LOW_PASS = 2e3  # Hz, of the second deviation of the cage centre's speed
+
+
+def _classed(found: OrbitClass | None) -> Found | None:
+    if found is None:
+        return None
+    note = (
+        f"spread {found.spread:.2g}, pace {found.pace:.2g}, ripple {found.ripple:.2g}, order "
+        f"{found.order:.2g}; own rule"
+    )
+    return Found(found.kind, note)
+
 
 # fmt: off
 MOTION = FigureTable[SettledRun]("Cage motion", "a cage")
@@ -39,6 +51,9 @@ MOTION.add("velocity_deviation_2khz", "Centre's speed, slow ripple", "%",
            "the same, low-passed at 2 kHz",
            take=lambda part: Found(velocity_deviation(part.ds, low_pass=LOW_PASS),
                                    f"the same, low-passed at {LOW_PASS / 1000.0:g} kHz"))
+MOTION.add("cage_motion", "Cage's motion, class", "",
+           "stable, circling or unstable, by a rule of flexcage's own (results.features)", "text",
+           take=lambda part: _classed(orbit_class(part.ds)))
 MOTION.add("tilt_mean", "Cage tilt, mean", "deg",
            "angle between the cage's axis and the bearing's", "statistic",
            take=lambda part: part.windows.mean(part.tilt))

@@ -5,6 +5,7 @@ Filters are ``scipy.signal``'s. Every stage takes evenly sampled values (n,) and
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 from functools import cache
 from math import ceil
@@ -41,27 +42,32 @@ def response(frequency: np.ndarray, resonance: float, damping_ratio: float) -> n
 
 
 def resonating(x: np.ndarray, rate: float, resonance: float, damping_ratio: float) -> np.ndarray:
-    """Values (n,) behind a resonance [Hz] (0: none), which rested at the first one: by the exact
-    response at every frequency of the record.
-
-    The record is continued, smoothly and back to its first value, until what its end leaves of the
-    resonance is gone.
-    """
+    """Values (n,) behind a resonance [Hz] (0: none), which rested at the first one."""
     if resonance == 0.0:
         return x
-    decay = _SETTLED / (2.0 * np.pi * resonance * min(damping_ratio, 1.0 / (2.0 * damping_ratio)))
-    n, more = len(x), ceil(decay * rate) + 64
-    back = x[-1] + (x[0] - x[-1]) * 0.5 * (
-        1.0 - np.cos(np.pi * np.arange(1, more + 1) / (more + 1))
-    )
-    rest = np.full(more, x[0])
-    padded = np.concatenate([x, back, rest]) - x[0]
-    spectrum = np.fft.rfft(padded)
-    frequency = np.fft.rfftfreq(len(padded), 1.0 / rate)
-    return (
-        np.fft.irfft(spectrum * response(frequency, resonance, damping_ratio), len(padded))[:n]
-        + x[0]
-    )
+    least = resonance * min(damping_ratio, 1.0 / (2.0 * damping_ratio))
+    answer = passed(x[:, None], rate, lambda f: response(f, resonance, damping_ratio)[:, None],
+                    least)  # fmt: skip
+    return np.asarray(answer + x[0])
+
+
+def passed(
+    x: np.ndarray, rate: float, gains: Callable[[np.ndarray], np.ndarray], decay: float
+) -> np.ndarray:
+    """What values (n, k) less the first ones make behind ``gains``, which map frequencies (m,) [Hz]
+    to (m, k), added up over k: (n,), by the exact response at every frequency of the record.
+
+    What is behind them rested at the first values, and loses 2 pi ``decay`` [1/s] of what is left.
+    The record is continued, smoothly and back to its first values, until nothing is left of what
+    its end does.
+    """
+    n, more = len(x), ceil(_SETTLED / (2.0 * np.pi * decay) * rate) + 64
+    fade = 0.5 * (1.0 + np.cos(np.pi * np.arange(1, more + 1) / (more + 1)))
+    moved = x - x[0]
+    padded = np.concatenate([moved, fade[:, None] * moved[-1], np.zeros((more, x.shape[1]))])
+    spectrum = np.fft.rfft(padded, axis=0)
+    spectrum *= gains(np.fft.rfftfreq(len(padded), 1.0 / rate))
+    return np.asarray(np.fft.irfft(spectrum.sum(axis=1), len(padded))[:n])
 
 
 def in_band(x: np.ndarray, rate: float, high_pass: float, low_pass: float) -> np.ndarray:

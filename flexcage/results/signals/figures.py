@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 SENSORS = "Sensors"
 MOST_CLIPPED = 1e-3  # of the samples, above which a run has a warning
 _REACH = 0.4  # of the rate, up to which a signal is whole
-_SHOWN = {"m/s^2": "m/s^2", "m": "um", "N m": "N mm"}
+_SHOWN = {"acceleration": "m/s^2", "displacement": "um", "torque": "N mm", "strain": "um/m"}
 
 
 def sensor_rows(signals: xarray.Dataset, lines: Mapping[str, float]) -> tuple[SummaryRow, ...]:
@@ -28,15 +28,15 @@ def sensor_rows(signals: xarray.Dataset, lines: Mapping[str, float]) -> tuple[Su
     defects show."""
     rows: list[SummaryRow] = []
     for name, signal in signals.items():
-        if signal.attrs["units"] in _SHOWN and signal.size >= FEWEST:
+        if signal.attrs["quantity"] in _SHOWN and signal.size >= FEWEST:
             rows += _rows(str(name), signal, lines)
     return tuple(rows)
 
 
 def _rows(name: str, signal: xarray.DataArray, lines: Mapping[str, float]) -> Iterator[SummaryRow]:
-    rate, shown = signal.attrs["rate"], _SHOWN[signal.attrs["units"]]
+    rate, shown = signal.attrs["rate"], _SHOWN[signal.attrs["quantity"]]
     band = (BAND[0], min(BAND[1], _REACH * rate))
-    shaken = signal.attrs["units"] == "m/s^2" and band[1] > 2.0 * band[0]
+    shaken = signal.attrs["quantity"] == "acceleration" and band[1] > 2.0 * band[0]
     wanted = {line: lines[line] for line in SOUGHT} if shaken else {}
     fits = band if shaken else (0.1 * rate, _REACH * rate)
     found = vibration_figures(signal, wanted, fits)

@@ -27,7 +27,7 @@ _MARK = "# "  # before what a CSV file says of its signals
 _WHOLE = 1e-6  # Hz, by which a rate is off a whole number at most
 _TIME_RESPONSE = 1  # function type of UFF 58
 #: UFF's number of what is measured, by quantity; 0: unknown to it.
-_SPECIFIC = {"acceleration": 12, "displacement": 8}
+_SPECIFIC = {"acceleration": 12, "displacement": 8, "strain": 3}
 #: UFF's numbers of directions that are along an axis, by what ``attrs`` say.
 _AXES = {"axial": 1, "0": 2, "90": 3, "180": -2, "-180": -2, "270": -3, "-90": -3}
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 from zlib import crc32
 
@@ -27,12 +29,15 @@ def signals_of(
     cage: Cage | None = None,
     settle: float = 0.0,
     attrs: Mapping[str, Any] | None = None,
+    computed: Mapping[str, np.ndarray] = MappingProxyType({}),
 ) -> xarray.Dataset:
     """Signals of the sensors of a run, by their names, without the share ``settle`` of its start.
 
     All of one rate have the dimension ``time`` [s, of the run]; of several rates each has its own,
-    as ``time_48000Hz``. ``attrs`` of a signal: ``units``, ``quantity``, ``place``, ``direction``
-    [deg] or "axial", ``rate`` [Hz], and the share of samples at the end of its range, ``clipped``.
+    as ``time_48000Hz``. ``computed`` are values, by name, of sensors that see more than the dataset
+    has, on the grid of ``sources.grid_of``. ``attrs`` of a signal: ``units``, ``quantity``,
+    ``place``, ``direction`` [deg] or in a word, ``rate`` [Hz], and the share of samples at the end
+    of its range, ``clipped``.
     InputError for no sensors, and for a run too short for a signal.
     """
     import xarray
@@ -43,7 +48,8 @@ def signals_of(
             "another file (--sensors FILE; in Python, run.signals_of).",
             where="sensors",
         )
-    found = {sensor.name: _signal(ds, sensor, cage, settle) for sensor in sensors}
+    sources = {s.name: computed.get(s.name, partial(seen, ds, s, cage)) for s in sensors}
+    found = {s.name: _signal(ds, s, sources[s.name], settle) for s in sensors}
     several = len({(t[0], len(t), rate) for t, rate, _ in found.values()}) > 1
     variables, coords = {}, {}
     for sensor in sensors:
@@ -55,9 +61,13 @@ def signals_of(
 
 
 def _signal(
-    ds: xarray.Dataset, sensor: Sensor, cage: Cage | None, settle: float
+    ds: xarray.Dataset,
+    sensor: Sensor,
+    source: np.ndarray | Callable[[], np.ndarray],
+    settle: float,
 ) -> tuple[np.ndarray, float, np.ndarray]:
-    """Instants (m,), rate [Hz] and values (m,) of a signal."""
+    """Instants (m,), rate [Hz] and values (m,) of a signal, of its values (n,) on the run's grid or
+    what gives them."""
     grid = grid_of(sensor)
     t = ds[grid].values
     if len(t) < FEWEST:
@@ -69,7 +79,7 @@ def _signal(
         )
     rate = float(f"{(len(t) - 1) / (t[-1] - t[0]):.12g}")
     own = sensor.rate or rate
-    source = seen(ds, sensor, cage)
+    source = source() if callable(source) else source
     count = int((len(t) - 1) * ratio(rate, own)) + 1
     instants = t[0] + np.arange(count) / own
     if isinstance(sensor, Tacho):
@@ -82,11 +92,9 @@ def _signal(
 
 
 def _attrs(sensor: Sensor, rate: float, values: np.ndarray) -> dict[str, Any]:
-    axial, direction = getattr(sensor, "axial", False), getattr(sensor, "direction", None)
-    towards = "axial" if axial else "none" if direction is None else f"{np.degrees(direction):g}"
     attrs = {
         "units": sensor.unit, "quantity": sensor.quantity, "sensor": sensor.type,
-        "place": sensor.place, "direction": towards, "rate": rate,
+        "place": sensor.place, "direction": sensor.towards, "rate": rate,
         "long_name": f"{sensor.quantity}, {sensor.type} at {sensor.place.replace('_', ' ')}",
         "noise": sensor.noise, "range": sensor.range, "bits": sensor.bits, "seed": sensor.seed,
     }  # fmt: skip

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import degrees
 from typing import ClassVar
 
 from flexcage.core.spec import GIVEN, option, quantity
@@ -12,12 +13,13 @@ from flexcage.core.spec import GIVEN, option, quantity
 #: Kinds of sensors, and the spec that each brings along.
 SENSORS: dict[str, type | None] = {}
 
-OUTER, INNER, CAGE = "outer_ring", "inner_ring", "cage"
+OUTER, INNER, CAGE, HOUSING = "outer_ring", "inner_ring", "cage", "housing"
 _WORD = re.compile(r"[A-Za-z]\w*")
 _ELSEWHERE = {
     "shaft|inner": "the shaft moves with the inner ring: take 'inner_ring'",
     "outer": "take 'outer_ring'",
-    "housing.*|mount|casing": "the outer ring moves with its seat there: take 'outer_ring'",
+    "housing.+|mount|casing|body": "take 'housing' with a node of mount.body, or 'outer_ring', "
+    "which moves with its seat there",
 }
 
 
@@ -73,6 +75,14 @@ class Sensor:
         return self.measures[1]
 
     @property
+    def towards(self) -> str:
+        """Azimuth [deg] that it reads along, as text, or a word."""
+        direction = getattr(self, "direction", None)
+        if getattr(self, "axial", False):
+            return "axial"
+        return "none" if direction is None else f"{degrees(direction):g}"
+
+    @property
     def named_well(self) -> bool:
         """Is its name a word that tables and MATLAB can have?"""
         return _WORD.fullmatch(self.name) is not None and not self.name.startswith("time")
@@ -100,13 +110,21 @@ def _axial() -> bool:
 
 @dataclass(frozen=True, kw_only=True)
 class Accelerometer(Sensor):
-    """Acceleration of the outer ring at the vibration rate, or of the cage's centre along axes that
-    turn with it (azimuth 0: pocket 0)."""
+    """Acceleration of the outer ring at the vibration rate, of a node of the elastic housing
+    ``mount.body``, or of the cage's centre along axes that turn with it (azimuth 0: pocket 0)."""
 
     type: str = option("accelerometer", doc="kind of sensor", choices=SENSORS)
     place: str = option(  # type: ignore[misc]
-        OUTER, doc="what it sits on", choices=(OUTER, CAGE), elsewhere=_ELSEWHERE
+        OUTER, doc="what it sits on", choices=(OUTER, CAGE, HOUSING), elsewhere=_ELSEWHERE
     )
+    node: int = option(
+        0, doc="number of its node in the file of mount.body", minimum=0,
+        when={"place": (HOUSING,)},
+    )  # fmt: skip
+    housing_damping: float = option(
+        0.02, doc="damping of each of the housing's modes over critical", minimum=1e-3,
+        maximum=1.0, assumption="bolted housings have 0.01 to 0.05", when={"place": (HOUSING,)},
+    )  # fmt: skip
     direction: float = _direction()
     axial: bool = _axial()
     noise: float = _noise("m/s^2")  # type: ignore[misc]
@@ -149,6 +167,55 @@ class Laser(Sensor):
     axial: ClassVar[bool] = False
 
 
+#: Sides of a cage that a strain gauge may be on, and directions in which it may lie there.
+ROUND, ENDS = ("outside", "inside"), ("+x", "-x")
+ALONG: Mapping[str, tuple[str, ...]] = {
+    **dict.fromkeys(ROUND, ("axial", "circumferential")),
+    **dict.fromkeys(ENDS, ("circumferential", "radial")),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class StrainGauge(Sensor):
+    """Strain of a flexible cage's surface, averaged along a line: the change of its length over
+    its length (``stress.gauges``). It turns with the cage."""
+
+    type: str = option("strain_gauge", doc="kind of sensor", choices=SENSORS)
+    crossbeam: int | None = option(
+        None, doc="crossbeam or web from whose middle its azimuth counts, between the pockets k-1 "
+        "and k; by default from pocket 0",
+        minimum=0,
+    )  # fmt: skip
+    azimuth: float = quantity("deg", 0.0, doc="where it is round the cage")
+    side: str = option("outside", doc="surface that it is on", choices=tuple(ALONG))
+    plane: float = quantity(
+        "mm", 0.0, doc="axial place, from the elements' middle plane", when={"side": ROUND}
+    )
+    radius: float = quantity(
+        "mm", 0.0, doc="distance from the cage's axis; 0: the middle between bore and outside",
+        minimum=0.0, when={"side": ENDS},
+    )  # fmt: skip
+    along: str = option(
+        "circumferential", doc="direction of its grid; on the outside or inside axial is along a "
+        "crossbeam",
+        choices=("axial", "circumferential", "radial"),
+    )  # fmt: skip
+    grid: float = quantity(
+        "mm", 1e-3, doc="length of its grid, over which strain is averaged", above=0.0,
+        assumption="foil gauges for small parts are 0.3 to 3 mm long",
+    )  # fmt: skip
+    noise: float = _noise("um/m")  # type: ignore[misc]
+    range: float = _range("um/m")  # type: ignore[misc]
+
+    measures: ClassVar[tuple[str, str]] = ("strain", "1")
+    place: ClassVar[str] = CAGE
+
+    @property
+    def towards(self) -> str:
+        """Direction of its grid."""
+        return self.along
+
+
 @dataclass(frozen=True, kw_only=True)
 class Torque(Sensor):
     """Torque of the drive: its power over the inner ring's speed."""
@@ -174,8 +241,9 @@ class Tacho(Sensor):
 
 
 SENSORS.update(
-    accelerometer=Accelerometer, proximity=Proximity, laser=Laser, torque=Torque, tacho=Tacho
-)
+    accelerometer=Accelerometer, proximity=Proximity, laser=Laser, strain_gauge=StrainGauge,
+    torque=Torque, tacho=Tacho,
+)  # fmt: skip
 
 #: Keys of a measuring chain, which pulses do not pass.
 OF_A_CHAIN: Mapping[str, object] = {

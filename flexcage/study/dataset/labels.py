@@ -6,10 +6,9 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import pi
+from math import hypot, pi
 
 from flexcage.case import Case
-from flexcage.core.binding import parts_of_length
 from flexcage.core.hashing import content_hash
 
 PLACE = "test_bearing"  # where faults and sensors are, of the schema's places
@@ -47,9 +46,17 @@ def fault_of(case: Case) -> Fault:
         if (size := getattr(getattr(case.bearing, key, None), "size", 0.0)) > 0.0:
             found["rolling_element"] = size
     if case.cage is not None and (case.defects or case.cage.unbalance > 0.0):
-        sizes = (abs(v) for defect in case.defects for v in parts_of_length(defect))
-        found[CAGE] = max(sizes, default=0.0)
+        found[CAGE] = max((defect.extent(case.cage) for defect in case.defects), default=0.0)
     return Fault(tuple(found), max(found.values(), default=0.0))
+
+
+def cage_faults(case: Case) -> str:
+    """Kinds of the cage's faults as cases name them, joined by "+"; "none" of a sound one."""
+    if case.cage is None:
+        return "none"
+    kinds = [defect.type for defect in case.defects]
+    kinds += ["unbalance"] if case.cage.unbalance > 0.0 else []
+    return "+".join(dict.fromkeys(kinds)) or "none"
 
 
 def level_of(fault: Fault, edges: Sequence[float]) -> int:
@@ -87,6 +94,8 @@ def load_words(case: Case) -> str:
     """The load in a few words, by which records are grouped."""
     load = case.load
     words = f"{load.radial:.4g} N radial, {load.axial:.4g} N axial"
+    if (moment := hypot(load.moment_y, load.moment_z)) > 0.0:
+        words += f", {moment:.4g} N m"
     changes = load.ramp_to is not None or bool(load.times) or load.wave != "none"
     return f"{words}, varying" if changes else words
 

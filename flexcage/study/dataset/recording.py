@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.case import Case
-from flexcage.results.features import cage_motion_features
+from flexcage.results.features import cage_motion_features, orbit_class
 from flexcage.results.frequencies import bearing_frequencies
 from flexcage.results.metrics import pocket_peaks, settled
 from flexcage.study.case_row import CaseRow
@@ -27,8 +27,14 @@ if TYPE_CHECKING:
 
 #: The schema's unit of each SI unit of a signal, and its place of a sensor.
 _UNITS = {"m/s^2": "m/s^2", "m": "m", "N m": "Nm", "1": "normalized"}
-_MOUNTED = {"outer_ring": "outer_ring", "inner_ring": "shaft", "cage": "none"}
-_AXES = {"axial": "axial", "0": "y", "90": "z", "180": "y", "270": "z", "none": "none"}
+_NONE_OF_ITS_OWN = {"strain": ("unknown", "unknown")}  # quantities that the schema has no word for
+_MOUNTED = {
+    "outer_ring": "outer_ring", "inner_ring": "shaft", "cage": "none", "housing": "pedestal",
+}  # fmt: skip
+_AXES = {
+    "axial": "axial", "0": "y", "90": "z", "180": "y", "270": "z", "none": "none",
+    "circumferential": "tangential",
+}  # fmt: skip
 TRUTH_VARIABLES = ("outer_race_force", "inner_race_force", "defect_force")
 
 
@@ -53,7 +59,7 @@ def recording_of(run: Run, planned: Planned, row: CaseRow, name: str, edges: tup
     }
     shared = _of_case(case, run, planned, name, edges)
     rows = [
-        {**shared, **_of_channel(case, str(n), s, file, k)}
+        {**shared, **channel_row(case, str(n), s, file, k)}
         for k, (n, s) in enumerate(signals.data_vars.items())
     ]
     return Recording(files, rows, _truth(case, run, planned, row, shared))
@@ -83,14 +89,16 @@ def _of_case(case: Case, run: Run, planned: Planned, name: str, edges: tuple) ->
     }  # fmt: skip
 
 
-def _of_channel(
+def channel_row(
     case: Case, channel: str, signal: xarray.DataArray, file: str, k: int
 ) -> dict[str, Any]:
+    """What the metadata table says of a channel, whose samples are row ``k`` of a file."""
     attrs = signal.attrs
+    own = (attrs["quantity"], _UNITS[attrs["units"]])
+    quantity, unit = _NONE_OF_ITS_OWN.get(attrs["quantity"], own)
     return {
         "signal_id": f"{case.hash}/{channel}", "channel": channel, "fs": float(attrs["rate"]),
-        "n_samples": int(signal.size), "quantity": attrs["quantity"],
-        "unit": _UNITS[attrs["units"]], "sensitivity": "none",
+        "n_samples": int(signal.size), "quantity": quantity, "unit": unit, "sensitivity": "none",
         "axis": _AXES.get(str(attrs["direction"]), "radial"),
         "sensor_mounting": _MOUNTED[attrs["place"]], "signal_file": file, "signal_row_group": 0,
         "signal_row": k,
@@ -108,7 +116,8 @@ def _truth(
         "fault_size_mm": shared["fault_size_mm"], "bearing_id": shared["bearing_id"],
         "load_group": labels.load_words(case), "seed": case.start.seed,
         "bearing_seed": case.seed, "noise_seed": labels.noise_of(case),
-        "defects": _defects(case), "values": json.dumps(dict(planned.point.values), default=str),
+        "cage_faults": labels.cage_faults(case), "defects": _defects(case),
+        "values": json.dumps(dict(planned.point.values), default=str),
         "audit": str(row.figures["energy_audit"].value) if "energy_audit" in row.figures else "",
         "warnings": " ".join(warning.text for warning in row.warnings),
         "version": row.origin.version, "physics": row.origin.physics,
@@ -120,6 +129,8 @@ def _truth(
         features = cage_motion_features(part)
         found["whirl_speed_ratio"] = features.whirl_speed_ratio
         found["motion"] = _motion(features.whirl_speed_ratio)
+        orbit = orbit_class(part)
+        found["motion_class"] = "not known" if orbit is None else orbit.kind
     for name, figure in row.figures.items():
         number = isinstance(figure.value, (int, float)) and not isinstance(figure.value, bool)
         timed = name.startswith("wall_")  # another computer's would differ
