@@ -227,11 +227,7 @@ def _moved(force: np.ndarray, arm: float) -> np.ndarray:
 
 
 def build_shaft(spec: Shaft, positions: list[float]) -> ShaftModel:
-    """Model of a shaft with nodes at ``positions`` [m] of bearings, at loads and discs."""
-    if spec.body:
-        from flexcage.machine.body_shaft import read_shaft  # with readers of files, which few need
-
-        return read_shaft(spec, positions)
+    """Model of a shaft of beams with nodes at ``positions`` [m] of bearings, at loads and discs."""
     ends = np.concatenate([[0.0], np.cumsum([s.length for s in spec.sections])])
     if not spec.sections:
         ends = np.array([0.0, spec.whole_length])

@@ -35,7 +35,7 @@ def solve_machine(machine: Machine) -> MachineSolution:
     Raises InputError for loads that the bearings cannot bear, RunFailed if no equilibrium is found.
     """
     expect(machine, Machine, "machine", "flexcage.load_machine reads one from a file")
-    shaft = build_shaft(machine.shaft, [b.place.position for b in machine.bearings])
+    shaft = _shaft_of(machine)
     load = shaft.load(machine.gravity)
     size = _size(machine, shaft.by_node(machine.gravity))
     seats = [seat(b, shaft.dofs(b.place.position), size) for b in machine.bearings]
@@ -56,6 +56,16 @@ def solve_machine(machine: Machine) -> MachineSolution:
         whirl=machine.whirl, gravity=machine.gravity,
     )  # fmt: skip
     return replace(solution, warnings=tuple(_warnings(machine, solution)))
+
+
+def _shaft_of(machine: Machine) -> ShaftModel:
+    """Its model, of beams or from a file."""
+    positions = [b.place.position for b in machine.bearings]
+    if not machine.shaft.body:
+        return build_shaft(machine.shaft, positions)
+    from flexcage.machine.body_shaft import read_shaft  # with readers of files, which few need
+
+    return read_shaft(machine.shaft, positions)
 
 
 def _size(machine: Machine, load: np.ndarray) -> float:
