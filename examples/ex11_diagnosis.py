@@ -68,7 +68,7 @@ def recordings(folder: Path) -> pd.DataFrame:
         labels = {"fault": row.fault_type, "label": row.native_label}
         labels["bearing"] = truth.loc[row.recording_id, "bearing_seed"]
         rows[row.recording_id] = {**rows.get(row.recording_id, {}), **labels, **own}
-    return pd.DataFrame.from_dict(rows, orient="index")
+    return pd.DataFrame.from_dict(rows, orient="index").sort_values(["fault", "label"])
 
 
 def vibration(signal: xr.DataArray, lines: dict[str, float]) -> dict[str, float]:
