@@ -105,11 +105,12 @@ def judged(table: pd.DataFrame, sensors: Sequence[str], *, shuffle: int | None =
     found = pd.Series("", index=table.index)
     for other in (False, True):
         learnt, judge = table[second == other], table[second != other]
+        known = learnt[columns].dropna(axis="columns", how="all")  # short signals lack FTF
         labels = learnt["fault"].to_numpy()
         if shuffle is not None:
             labels = np.random.default_rng(shuffle).permutation(labels)
         model = HistGradientBoostingClassifier(min_samples_leaf=3, random_state=0)
-        found[judge.index] = model.fit(learnt[columns], labels).predict(judge[columns])
+        found[judge.index] = model.fit(known, labels).predict(judge[known.columns])
     return found
 
 
