@@ -16,11 +16,11 @@ def main(picture: str = "", **changes: object) -> tuple[float, float]:
     bpfo = run.signals.attrs["BPFO (Hz)"]
     print(f"strongest line {line:.1f} Hz; BPFO {bpfo:.1f} Hz by the run's own speeds")
     if picture:
-        force = run.dataset["race_force"].sel(race="outer").isel(element=0)
+        force = run.dataset["race_force"].sel(race="outer")
         lines = {name: run.summary[f"frequency_{key}"] for name, key in KEYS.items()}
         flexcage.render.signal_picture(
             casing, picture, lines=lines, title=case.name,
-            force=force.assign_attrs(long_name="force of the outer race on ball 0"),
+            force=force.assign_attrs(long_name="force of the outer race on each ball"),
         )  # fmt: skip
     return line, bpfo
 

@@ -22,6 +22,7 @@ TESTED = {
     "ex08_rotor_bearing",
     "ex09_machine",
     "ex10_signals",
+    "ex11_diagnosis",
 }
 
 

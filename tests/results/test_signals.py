@@ -78,6 +78,38 @@ def test_noise_is_each_sensor_s_own_and_comes_again(known_run):
     assert (other["b"].values != both["b"].values).any()
 
 
+@pytest.mark.parametrize("rate", [25e3, 51.2e3])
+def test_signal_to_noise_follows_the_density(known_run, rate):
+    """A band's noise power is density^2 times its width; twice the density is four times the power,
+    6.02 dB, whatever resonance and filters stand before it. A tone of 5 m/s^2 has 12.5."""
+    ds, density, width = known_run.copy(), 0.01, 400.0
+    tone = 5.0 * np.sin(2 * np.pi * 3e3 * ds["time_hf"].values)
+    ds["outer_acceleration"] = ds["outer_acceleration"] + np.stack([tone, 0.0 * tone], 1)
+
+    def measured(noise):
+        chain = {"rate": rate, "resonance": 60e3, "damping_ratio": 0.1, "low_pass": 10e3}
+        return of(ds, Accelerometer(name="a", noise=noise, **chain))["a"].values
+
+    def power(x, low, high):
+        lines, frequency = np.abs(np.fft.rfft(x)) ** 2, np.fft.rfftfreq(len(x), 1 / rate)
+        return 2.0 * lines[(frequency >= low) & (frequency < high)].sum() / len(x) ** 2
+
+    quiet = measured(0.0)
+    one, two = measured(density) - quiet, measured(2 * density) - quiet
+    assert np.mean(two**2) / np.mean(one**2) == pytest.approx(4.0, rel=1e-9)
+    for low, high in ((0.0, 0.5 * rate), (2e3, 10e3), (4e3, 4e3 + 2 * width)):
+        lines = (high - low) * len(one) / rate  # each an independent draw
+        assert power(one, low, high) == pytest.approx(
+            density**2 * (high - low), rel=4.0 / np.sqrt(lines)
+        )
+    band = (3e3 - width / 2, 3e3 + width / 2)
+    to_noise = [10 * np.log10(power(quiet, *band) / power(x, *band)) for x in (one, two)]
+    assert to_noise[0] - to_noise[1] == pytest.approx(6.02, abs=0.01)
+    gain = 1.0 / np.hypot(1 - 0.05**2, 0.2 * 0.05) / np.sqrt(1 + 0.3**8)  # of the chain at 3 kHz
+    wanted = 10 * np.log10(12.5 * gain**2 / (density**2 * width))
+    assert to_noise[0] == pytest.approx(wanted, abs=10 * np.log10(1 + 4 / np.sqrt(40)))
+
+
 def test_a_sensor_out_of_its_range_is_said(known_run):
     """y goes up to 50 um; above 45 um it is for acos(35/40)/pi of the time."""
     found = of(known_run, Proximity(name="p", place="cage", range=45e-6))
