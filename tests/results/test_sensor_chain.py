@@ -67,6 +67,14 @@ def test_a_sensor_that_has_seen_a_constant_shows_it_at_once():
     assert abs(resonating(T, RATE, 1e3, 0.01)[:50]).max() < 1e-3 * T[-1]
 
 
+def test_a_high_pass_does_not_drift_from_a_first_value_that_is_far_from_the_mean():
+    x = np.random.default_rng(2).normal(size=N)
+    x[0] = 30.0
+    found = in_band(x, RATE, 1.0, 0.0)
+    assert abs(found[1:].std() / x[1:].std() - 1.0) < 0.02
+    assert abs(found[1 : N // 4].mean()) < 4.0 / np.sqrt(N // 4)
+
+
 @pytest.mark.parametrize(
     ("cut", "gain"), [((100.0, 0.0), lambda f: 1 / np.sqrt(1 + (100.0 / f) ** 4)),
                       ((0.0, 10e3), lambda f: 1 / np.sqrt(1 + (f / 10e3) ** 8))],

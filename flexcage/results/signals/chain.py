@@ -72,13 +72,15 @@ def passed(
 
 def in_band(x: np.ndarray, rate: float, high_pass: float, low_pass: float) -> np.ndarray:
     """Values (n,) behind a Butterworth high-pass of order 2 and low-pass of order 4 (0 Hz: none),
-    that have seen the first value for long."""
+    that have seen a constant for long: the high-pass the mean of all values, from which the first
+    one may be far, and the low-pass the first."""
     from scipy.signal import butter, sosfilt, sosfilt_zi
 
     for order, kind, cut in ((2, "highpass", high_pass), (4, "lowpass", low_pass)):
         if cut > 0.0:
             sections = butter(order, cut, kind, fs=rate, output="sos")
-            x, _ = sosfilt(sections, x, zi=sosfilt_zi(sections) * x[0])
+            before = x.mean() if kind == "highpass" else x[0]
+            x, _ = sosfilt(sections, x, zi=sosfilt_zi(sections) * before)
     return x
 
 
