@@ -99,7 +99,7 @@ class Integrable(ABC):
     def advance(self, integrator: Integrator, state, options, t_end, times, ys, yds, first, log,
                 quads) -> tuple[int, int, int]:  # fmt: skip
         """``integrator.advance``, compiled for this problem when first called."""
-        function = _entry_of(self.advance_of(integrator, state, options))
+        function = self.advance_of(integrator, state, options)
         return function(
             self.functions(integrator), self.args, state, options, t_end, times, ys, yds, first,
             log, quads,
@@ -122,7 +122,7 @@ class Integrable(ABC):
         state = method.new_state(
             t, y, yd, weight=weight, h0=1.0, quad_weight=np.zeros(self.quads), modes=self.modes
         )
-        function = _entry_of(self.radius_of(state))
+        function = self.radius_of(state)
         radius = function(self.functions(method), self.args, state, ITERATIONS, 1.0)
         return runge_kutta.REACH / radius if radius > 0.0 else np.inf
 
@@ -148,13 +148,3 @@ class Integrable(ABC):
             if not hasattr(module[helper], "py_func"):
                 module[helper] = allocating_kernel(module[helper])
         return compiled(getattr(function, "py_func", function), signature, OPTIONS)
-
-
-def _entry_of(function: Any) -> Any:
-    """A kernel of one signature as it is called with arguments of just these types.
-
-    numba's dispatcher finds out the types of all arguments first, and in the slow way of groups
-    that hold kernels: milliseconds a call, where a bearing's arrays are handed over.
-    """
-    found = list(getattr(function, "overloads", {}).values())
-    return found[0].entry_point if len(found) == 1 else function
