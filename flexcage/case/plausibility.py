@@ -222,10 +222,10 @@ def _of_other_steel(case: StaticCase) -> Iterator[Said]:
     if elements.plane_strain_modulus > (1.0 + _STEEL) * steel >= own.plane_strain_modulus:
         yield (
             OTHER_STEEL,
-            f"Ratings are those of steel {case.bearing.element}s (ISO 76, ISO 281), but "
-            f"bearing.element_material is {elements.name}: C is the same for silicon nitride "
-            "(ISO 20056-1), and C0, with C_u, is lower (ISO 20056-2), which flexcage does not "
-            "compute.",
+            f"bearing.element_material is {elements.name}: C is that of steel "
+            f"{case.bearing.element}s, the same for silicon nitride (ISO 20056-1); C0 and C_u are "
+            f"{case.bearing.stress_share:.2f} of theirs, the loads that press as hard (Hertz), and "
+            "ISO 20056-2 allows slightly more.",
         )
     for name in ("inner_ring", "outer_ring"):
         ring = getattr(case, name)

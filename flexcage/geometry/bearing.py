@@ -215,6 +215,14 @@ class Bearing:
         return contact_modulus(self.material, self.rolling_material)
 
     @property
+    def stress_share(self) -> float:
+        """Load on an element of its material that presses a race as hard as 1 on one of the rings'
+        material: by Hertz (E'/E'_race)^2 of points, which are curved along the axis, and E'/E'_race
+        of lines."""
+        power = 2 if any(self.rolling_heights) else 1
+        return (self.material.plane_strain_modulus / self.race_modulus) ** power
+
+    @property
     def nominal_contact_angle(self) -> float:
         """Contact angle [rad] to which kinematics refer."""
         return 0.0

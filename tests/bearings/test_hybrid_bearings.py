@@ -178,12 +178,31 @@ def test_pressures_of_rollers_and_lives_of_balls_follow_in_statics():
     assert hybrid.reference_life > 1.5 * steel.reference_life
 
 
+@pytest.mark.parametrize(("name", "most"), [("c7010", 4.2e9), ("n1013", 4.0e9)])
+def test_a_static_rating_presses_as_hard_as_with_steel_elements(name, most):
+    """The largest pressure of static solutions is the same under loads that are to each other as
+    C0 is: of rollers without clearance, which share any load alike, and of balls but for the
+    contact angle, which rises with the deflection."""
+    rated, pressure = [], []
+    still = {"drive.speed": 0.0} | ({"bearing.radial_clearance": 0.0} if name == "n1013" else {})
+    for cases in (CASES, HYBRID):
+        case = cases[name].replace(still)
+        rating = solve_static(case).ratings.static
+        at = "load.axial" if name == "c7010" else "load.radial"
+        pressed = solve_static(case.replace({at: 0.05 * rating}))
+        rated.append(rating)
+        pressure.append(pressed.elements.pressure.max())
+    assert rated[1] / rated[0] == pytest.approx((STEEL / ON_RACE) ** (2 if name == "c7010" else 1))
+    assert pressure[1] / pressure[0] == pytest.approx(1.0, rel=0.02)
+    assert pressure[0] < most
+
+
 def test_words_sources_and_warnings_name_the_elements():
     case = HYBRID["c7010"]
     assert "18 balls of 9.525 mm of Si3N4" in in_words(case)[0].replace("\N{NO-BREAK SPACE}", " ")
     assert "SKF" in grounds(case)["Si3N4"] and "GCr15" in grounds(case)
     ((key, text),) = implausible_values(case)
-    assert key == "other_steel" and text.startswith("Ratings are those of steel balls")
+    assert key == "other_steel" and "C is that of steel balls" in text
     assert "ISO 20056-2" in text
     assert not list(implausible_values(CASES["c7010"]))
     lost = case.replace("bearing.element_material.proof_stress", 1e9)

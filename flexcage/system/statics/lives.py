@@ -61,9 +61,9 @@ def rated(
 
 
 def limit_of(bearing: Bearing, life: Life) -> float:
-    """Fatigue load limit C_u [N]."""
+    """Fatigue load limit C_u [N]; of hybrid bearings the one that makes as much stress."""
     assert bearing.endurance is not None
-    return life.fatigue_load_limit or fatigue_limit(
+    return life.fatigue_load_limit or bearing.stress_share * fatigue_limit(
         bearing.endurance, bearing.static_rating, bearing.pitch_diameter
     )
 

@@ -198,7 +198,7 @@ def _ratings(
     equivalent = bearing.equivalent_load(radial, abs(float(force[0])))
     load = equivalent.load if equivalent.load > 0.0 else float("nan")  # moments are not rated
     return Ratings(
-        static=bearing.static_rating,
+        static=bearing.static_rating * bearing.stress_share,
         dynamic=dynamic,
         names=bearing.rating_names,
         equivalent_load=load,
