@@ -53,13 +53,7 @@ class ShaftModel:
 
     @cached_property
     def motions(self) -> np.ndarray:
-        size = DOFS * len(self.places)
-        if not self.rigid:
-            return np.eye(size)
-        found = np.tile(np.eye(DOFS), (len(self.places), 1))
-        found[1::DOFS, 4] = self.places  # a turn about z lifts y
-        found[2::DOFS, 3] = -self.places
-        return found
+        return self.rigid_about(0.0) if self.rigid else np.eye(DOFS * len(self.places))
 
     @property
     def made(self) -> np.ndarray:
@@ -69,7 +63,7 @@ class ShaftModel:
     def rigid_about(self, centre: float) -> np.ndarray:
         """Coordinates (c, 5) of a rigid shaft that moves with, and turns about, a place [m]."""
         found = np.tile(np.eye(DOFS), (len(self.places), 1))
-        found[1::DOFS, 4] = self.places - centre
+        found[1::DOFS, 4] = self.places - centre  # a turn about z lifts y
         found[2::DOFS, 3] = centre - self.places
         return found
 
