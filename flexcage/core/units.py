@@ -83,6 +83,8 @@ _COMMON: dict[str, tuple[str, int, float]] = {
     "m/s^2/Hz^0.5": ("density of acceleration", 0, 1.0),
     "um/Hz^0.5": ("density of length", -6, 1.0),
     "N*mm/Hz^0.5": ("density of moment", -3, 1.0),
+    "um/m": ("strain", -6, 1.0),
+    "um/m/Hz^0.5": ("density of strain", -6, 1.0),
 }
 # units whose zero is not SI's: what it is there
 _ZEROS = {"degC": Decimal("273.15")}

@@ -258,6 +258,8 @@ SPELLINGS: dict[str, tuple[tuple[float | str, str], ...]] = {
     ),
     "density of length": ((1e-6, "1 um/Hz^0.5 | 1e-3 mm/Hz^0.5"), (OTHER, "1 um | 1 um/Hz")),
     "density of moment": ((1e-3, "1 N*mm/Hz^0.5 | 0.001 N*m/Hz^0.5"), (OTHER, "1 N*mm")),
+    "strain": ((5e-6, "5 um/m | 5 µm/m | 0.005 mm/m | 5 um m^-1"), (OTHER, "5 um | 5 um/m/Hz^0.5")),
+    "density of strain": ((1e-8, "0.01 um/m/Hz^0.5 | 1e-5 mm/m/Hz^0.5"), (OTHER, "1 um/m")),
 }
 ROWS = [
     (kind, text, due)

@@ -10,7 +10,7 @@ from types import SimpleNamespace
 import pytest
 
 from flexcage.core import stopping
-from flexcage.study.run import _Desk
+from flexcage.study.desk import Desk
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals of this process")
 
@@ -84,7 +84,7 @@ def test_an_error_on_the_way_stays_that_error():
 
 def test_a_study_that_waits_for_its_cases_ends():
     """No case ever comes back."""
-    desk = _Desk.__new__(_Desk)
+    desk = Desk.__new__(Desk)
     desk._back = []
     waiting = SimpleNamespace(next_batch=lambda block: lose() or [])
     with pytest.raises(KeyboardInterrupt), stopping.unwinding():

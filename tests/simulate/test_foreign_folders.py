@@ -13,6 +13,7 @@ from flexcage.cli import main
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.results.summary import Summary
 from flexcage.run import folder as folders
+from flexcage.run import seams
 from flexcage.simulate import load_run, simulate
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="links want rights on Windows")
@@ -59,7 +60,7 @@ def victim(tmp_path):
 
 
 def test_another_physics_is_not_gone_on_with_unseen(half, monkeypatch, caplog):
-    monkeypatch.setattr(folders, "physics", lambda: "another")
+    monkeypatch.setattr(seams, "physics", lambda: "another")
     with pytest.raises(InputError, match=r"begun by another state of flexcage .*--other-version"):
         simulate(CASE, out=half, resume=True)
     run = simulate(CASE, out=half, resume=True, other_version=True)
@@ -79,7 +80,7 @@ def test_the_same_physics_goes_on_without_a_word(half):
     run = simulate(CASE, out=half, resume=True)
     assert run.store.complete and not [w for w in run.warnings if w.key == "other_version"]
     attrs = run.dataset.attrs
-    assert attrs["version"] == folders.__version__ and attrs["physics"] == folders.physics()
+    assert attrs["version"] == seams.__version__ and attrs["physics"] == seams.physics()
 
 
 def test_the_seam_is_that_of_what_was_added(half, monkeypatch):
@@ -88,7 +89,7 @@ def test_the_seam_is_that_of_what_was_added(half, monkeypatch):
     def killed(*args, **kwargs):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(folders, "physics", lambda: "another")
+    monkeypatch.setattr(seams, "physics", lambda: "another")
     monkeypatch.setattr(folders.RunStore, "write_block", killed)
     with pytest.raises(KeyboardInterrupt):
         simulate(CASE, out=half, resume=True, other_version=True)

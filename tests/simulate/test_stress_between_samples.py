@@ -56,7 +56,8 @@ def land_blows(dense):
 
 
 def test_steps_between_samples_see_the_peaks(run, dense):
-    """Samples at 400 kHz miss none; those at 50 kHz alone read 5 to 10 % low."""
+    """Samples at 400 kHz miss none; those at 50 kHz alone read 2 to 10 % low, by the blows that a
+    machine's rounding leads to."""
     at_rate = dense.dataset["cage_position"].values[7::8]
     np.testing.assert_allclose(run.dataset["cage_position"].values, at_rate, rtol=1e-7, atol=1e-15)
     wanted = pass_peaks(dense.stress_history, 8 * RATE)
@@ -67,7 +68,7 @@ def test_steps_between_samples_see_the_peaks(run, dense):
     np.testing.assert_allclose(with_steps[~blow], wanted[~blow], rtol=0.04)
     assert (with_steps[blow] > 0.8 * wanted[blow]).all() and (with_steps < 1.001 * wanted).all()
     samples_alone = pass_peaks(_without_steps(run), RATE)
-    assert samples_alone.mean() < 0.97 * wanted.mean()
+    assert samples_alone.mean() < 0.98 * wanted.mean() and (samples_alone < 1.001 * wanted).all()
     h = run.stress_history
     assert (h.places.max(axis=1) <= h.peak * 1.00001).all()  # places are searched for the peak
 

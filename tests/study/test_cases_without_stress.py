@@ -10,6 +10,7 @@ from flexcage.simulate import load_run, simulate
 from flexcage.stress.run_stress import RunStress
 from flexcage.study import work
 from flexcage.study.axes import Grid
+from flexcage.study.desk import Crew
 from flexcage.study.folder import Folder
 from flexcage.study.outputs import lacking, needs_stress
 from flexcage.study.page_stress import to_show
@@ -122,9 +123,9 @@ def test_stress_that_is_wanted_later_is_that_of_a_plain_run(tmp_path, monkeypatc
         monkeypatch.setattr(work, "simulate", never)
     more = study_of(MODELS, outputs=("stress_peak", "wall_stress"), keep=keep)
     rigid, flexible = (planned.hash for planned in make_plan(more).cases)
-    assert _lacking(make_plan(more), results.folder, retry=False) == {flexible}
+    assert _lacking(make_plan(more), results.folder, Crew()) == {flexible}
     results = compute(tmp_path / "study", more)
-    assert _lacking(make_plan(more), results.folder, retry=False) == set()
+    assert _lacking(make_plan(more), results.folder, Crew()) == set()
     assert results.folder.row(rigid).figures == before[0]
     figures = results.folder.row(flexible).figures
     assert set(figures) == {*before[1], *OF_STRESS}
