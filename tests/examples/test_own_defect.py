@@ -126,9 +126,7 @@ def test_another_cage_has_none_and_says_which_it_has(mine):
     with pytest.raises(InputError, match="'dent', .*machined cages, .*'displaced', 'crack'"):
         dented(preset="7010C-PI")
     crack = {"type": "crack", "web": 1, "share": 0.2}
-    with pytest.raises(
-        InputError, match=OF_WINDOWS
-    ):
+    with pytest.raises(InputError, match=OF_WINDOWS):
         dented(crack)
 
 
@@ -158,9 +156,7 @@ def test_a_cage_type_of_ones_own_lists_its_own(mine, monkeypatch):
     assert case.defects == (Notch(pocket=3, depth=0.2e-3),)
     with pytest.raises(InputError, match="one of the slim cages, .* 'notch', 'side_beam'"):
         Case.from_table({**table, "defects": [DENT]})
-    with pytest.raises(
-        InputError, match=OF_WINDOWS
-    ):
+    with pytest.raises(InputError, match=OF_WINDOWS):
         dented({**DENT, "type": "notch"})
 
 
