@@ -218,7 +218,9 @@ class Bearing:
     def stress_share(self) -> float:
         """Load on an element of its material that presses a race as hard as 1 on one of the rings'
         material: by Hertz (E'/E'_race)^2 of points, which are curved along the axis, and E'/E'_race
-        of lines."""
+        of lines; 1 where its type has no materials."""
+        if getattr(self, "element_material", None) is None:
+            return 1.0
         power = 2 if any(self.rolling_heights) else 1
         return (self.material.plane_strain_modulus / self.race_modulus) ** power
 
