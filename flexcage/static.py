@@ -15,7 +15,7 @@ from flexcage.case.plausibility import implausible_values
 from flexcage.case.unread import not_used
 from flexcage.contacts.spec import EhlTraction
 from flexcage.core.binding import expect
-from flexcage.core.errors import EnvironmentLacks, InputError
+from flexcage.core.errors import InputError, pictures_alone
 from flexcage.core.listing import PAGE
 from flexcage.core.writing import write_text
 from flexcage.geometry.film import creep_speed
@@ -158,10 +158,8 @@ def write_static(case: StaticCase, solution: StaticSolution, folder: Path) -> li
     A machine that cannot draw costs the pictures alone.
     """
     written = write_static_numbers(case, solution, folder)
-    try:
+    with pictures_alone(log):
         written += draw_static(case, solution, folder)
-    except EnvironmentLacks as exc:
-        log.warning("no picture: %s", exc)
     return written
 
 

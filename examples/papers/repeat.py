@@ -255,10 +255,11 @@ def collect(paper: Paper, folder: Path, out: Path, *, quick: bool = False) -> Co
 
 def _runs(folder: Path, out: Path, file: str, quick: bool) -> Settings:
     """Runs of a map: of the paper's table, and of the folder of runs, which count first."""
-    spec, path = load_map(folder / file), _of(out, file)
+    path = _of(out, file)
     if quick:
-        spec = replace(load_map(folder / file, overrides=QUICK), count=4, starts=1)
-        return settings_of(MapResults(path), spec)
+        few = replace(load_map(folder / file, overrides=QUICK), count=4, starts=1)
+        return settings_of(MapResults(path), few)
+    spec = load_map(folder / file)
     found = read_settings(folder / table_name(file), spec)
     return found.with_(settings_of(MapResults(path), spec)) if path.is_dir() else found
 
@@ -387,6 +388,8 @@ def main(arguments: Sequence[str] | None = None) -> Computed:
         "--tables", action="store_true", help="write the tables only: a later run goes on from them"
     )
     options = parser.parse_args(arguments)
+    if options.quick and (options.page or options.tables):
+        parser.error("--quick tries a folder; its runs would replace those of page and tables")
     folder = options.folder.resolve()
     paper = load(folder)
     out = options.out or Path("runs") / f"{folder.name}{'_quick' * options.quick}"

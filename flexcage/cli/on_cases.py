@@ -282,9 +282,7 @@ def converge_command(args: argparse.Namespace) -> int:
 
 def draw(run: Any, folder: Path, *, animate: bool, **look: float) -> None:
     """Draw a run's pictures; a machine that cannot draw costs the pictures, not the run."""
-    from flexcage.core.errors import EnvironmentLacks
+    from flexcage.core.errors import pictures_alone
 
-    try:
+    with pictures_alone(logging.getLogger(__name__)):
         run.draw(folder, animate=animate, **look)
-    except EnvironmentLacks as exc:
-        logging.getLogger(__name__).warning("no pictures: %s", exc)

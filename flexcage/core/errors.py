@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import logging
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from errno import EDQUOT, ENOSPC
 from traceback import extract_tb
 from typing import Any
@@ -54,6 +57,15 @@ class EnvironmentLacks(FlexcageError, RuntimeError):
     """This machine lacks something (a system library, a package); the text names the remedy."""
 
     exit_code = 1
+
+
+@contextmanager
+def pictures_alone(log: logging.Logger) -> Iterator[None]:
+    """Where this machine cannot draw, it costs the pictures alone: a warning says why."""
+    try:
+        yield
+    except EnvironmentLacks as exc:
+        log.warning("no pictures: %s", exc)
 
 
 def install(extra: str) -> str:

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from flexcage.case import StaticCase
-from flexcage.core.errors import EnvironmentLacks
+from flexcage.core.errors import pictures_alone
 from flexcage.core.listing import PAGE
 from flexcage.core.writing import write_text
 from flexcage.machine.machine import Machine
@@ -33,10 +33,8 @@ def write_machine(machine: Machine, solution: MachineSolution, folder: Path) -> 
     A computer that cannot draw costs the pictures alone.
     """
     written = write_numbers(machine, solution, folder)
-    try:
+    with pictures_alone(log):
         written += draw_at_rest(machine, solution, folder)
-    except EnvironmentLacks as exc:
-        log.warning("no pictures: %s", exc)
     return written
 
 

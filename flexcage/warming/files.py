@@ -9,7 +9,7 @@ import logging
 from pathlib import Path
 
 from flexcage._version import __version__
-from flexcage.core.errors import EnvironmentLacks
+from flexcage.core.errors import pictures_alone
 from flexcage.core.listing import PAGE
 from flexcage.core.writing import write_text
 from flexcage.warming.warmth import ZERO, Warmth
@@ -34,10 +34,8 @@ def write_warmth(warmth: Warmth, folder: Path) -> list[Path]:
     for name, text in texts.items():
         write_text(folder / name, text)
     written = [folder / name for name in texts]
-    try:
+    with pictures_alone(log):
         written.append(draw_warmth(warmth, folder / "warm.png"))
-    except EnvironmentLacks as exc:
-        log.warning("no picture: %s", exc)
     return written
 
 

@@ -83,13 +83,14 @@ def empty(spec: Map) -> Settings:
 
 def read_settings(path: Path, spec: Map) -> Settings:
     """What a folder's table holds of a map: nothing, where there is no table, or one of other
-    settings, conditions or outputs."""
+    settings or outputs, which a line says."""
     if not path.is_file():
         return empty(spec)
     table = pd.read_csv(path, dtype={CONDITION: str, PHYSICS: str})
     names = _columns(spec)
     needed = {*KEYS, SECONDS, PHYSICS, *names, *spec.outputs}
     if not needed <= set(table) or not _same(table, spec, names):
+        print(f"{path.name} is of other settings or outputs: its runs are computed anew")
         return empty(spec)
     known = table[CONDITION].isin([str(c["label"]) for c in spec.conditions])
     return Settings(spec, table[known].drop(columns=names))
