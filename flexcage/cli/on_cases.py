@@ -137,7 +137,7 @@ def _run_machine(args: argparse.Namespace) -> int:
     from flexcage.case.read import read_machine
     from flexcage.machine import load_machine
     from flexcage.machine.motion import check_moves
-    from flexcage.machine.writing import OURS
+    from flexcage.machine.writing import MACHINE, OURS
 
     look, overrides = look_of(args), settings_of(args)
     if args.cage:
@@ -147,7 +147,7 @@ def _run_machine(args: argparse.Namespace) -> int:
     check_moves(machine)
     args.out = out = Path(args.out) if args.out else Path("runs") / machine.name
     ours = (*OURS, "case.toml")
-    with run_folder(out, resume=args.resume, force=args.force, ours=ours, first=OURS[0]):
+    with run_folder(out, resume=args.resume, force=args.force, ours=ours, first=MACHINE):
         with while_loading():
             from flexcage.core.progress import Progress
             from flexcage.machine_run import simulate_machine

@@ -50,16 +50,6 @@ class BodyShaft(ShaftModel):
     matrices: tuple[np.ndarray, np.ndarray, np.ndarray]  # stiffness, mass, gyroscopic (c, c)
     unit: np.ndarray  # (c, 5) coordinates of rigid motions about x = 0
 
-    @property
-    def bends(self) -> bool:
-        """Has it motions beside those of a rigid body?"""
-        return not self.rigid
-
-    @property
-    def ends(self) -> tuple[float, float]:
-        """Its first and its last station [m]."""
-        return float(self.places[0]), float(self.places[-1])
-
     @cached_property
     def made(self) -> np.ndarray:
         """Coordinates (c, m) of the motions."""
@@ -72,7 +62,10 @@ class BodyShaft(ShaftModel):
 
     def rigid_about(self, centre: float) -> np.ndarray:
         """Coordinates (c, 5) of a rigid shaft that moves with, and turns about, a place [m]."""
-        return _about(self.unit, centre)
+        found = self.unit.copy()
+        found[:, 4] -= centre * self.unit[:, 1]
+        found[:, 3] += centre * self.unit[:, 2]
+        return found
 
     @property
     def _own(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -140,13 +133,6 @@ def read_shaft(spec: Shaft, positions: Sequence[float]) -> BodyShaft:
     )  # fmt: skip
     _check_round(body, found)
     _check_speed(body, found)
-    return found
-
-
-def _about(unit: np.ndarray, centre: float) -> np.ndarray:
-    found = unit.copy()
-    found[:, 4] -= centre * unit[:, 1]
-    found[:, 3] += centre * unit[:, 2]
     return found
 
 

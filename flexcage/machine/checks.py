@@ -165,7 +165,7 @@ def _find_in_preload(seated: SeatedBearing, where: str) -> Iterator[Finding]:
             f"{where}.preload_force",
             f"{where} has both preload_force and axial_offset, which say the same; keep one.",
         )
-    floats = place.axial_seat == "floating"
+    floats = place.floats
     if sprung and not floats:
         yield (
             f"{where}.spring_force",

@@ -56,6 +56,11 @@ class Together:
         return T.T @ self.shaft.stiffness @ T if not self.shaft.rigid else np.zeros((5, 5))
 
     @cached_property
+    def pull(self) -> np.ndarray:
+        """Loads in the shaft's own motions."""
+        return np.asarray(self.shaft.made.T @ self.load)
+
+    @cached_property
     def shares(self) -> list[np.ndarray]:
         """How the unknowns move r of every bearing: (5, size of the unknowns)."""
         found = []
@@ -102,10 +107,10 @@ def standing(m: Together, z: np.ndarray, near: Standing | None, share: float) ->
     a = z[: m.starts[0]]
     gap = np.zeros(len(z))
     pulled = m.linear @ a
-    gap[: m.starts[0]] = pulled - m.shaft.made.T @ m.load
+    gap[: m.starts[0]] = pulled - m.pull
     noise = np.zeros(len(z))
     noise[: m.starts[0]] = np.abs(m.linear) @ np.abs(a)
-    energy = 0.5 * float(a @ pulled) - float(m.load @ (m.shaft.made @ a))
+    energy = 0.5 * float(a @ pulled) - float(m.pull @ a)
     postures, settled = [], True
     for k, (b, p) in enumerate(zip(m.bearings, rings)):
         found = b.press(b.relative(q, p), None if near is None else near.postures[k], share)

@@ -44,6 +44,15 @@ class HousingSeats:
         return found
 
 
+def turned(compliance: np.ndarray, signs: np.ndarray, *, floats: bool) -> np.ndarray:
+    """Compliance (5, 5) of a seat in axes to which motions turn by ``signs`` (5,); none along x
+    for a ring that ``floats``."""
+    found = np.outer(signs, signs) * compliance
+    if floats:
+        found[0, :] = found[:, 0] = 0.0
+    return found
+
+
 def housing_seats(machine: Machine) -> HousingSeats | None:
     """Those of the bearings without a seat of their own in the machine's housing; None if it has no
     housing. InputError if they are none, or have no nodes in it."""

@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from flexcage.machine.housing import housing_seats
+from flexcage.machine.housing import turned
 from flexcage.machine.machine import Machine, SeatedBearing
 from flexcage.machine.motion import FROM_MIRROR, slides, starting_point
 from flexcage.machine.solution import MachineSolution
@@ -33,7 +33,7 @@ class MovingSeats:
     def _between(self) -> np.ndarray | None:
         """Stiffness (b, b, 5, 5) that the housing has between all bearings, zero for those that sit
         elsewhere, and along x for rings that slide; None if there is no housing."""
-        seats = housing_seats(self.machine)
+        seats = self.solution.housing
         if seats is None:
             return None
         many, sit = len(self.machine.bearings), list(seats.there)
@@ -64,7 +64,8 @@ class MovingSeats:
             return None
         found = compliance_of(mount, seated.case.bearing)
         assert found is not None  # of a body
-        return _turned(found, seated)
+        signs = OTHER_WAY if seated.place.reversed else np.ones(5)  # of the machine's axes
+        return turned(found, signs, floats=seated.place.floats)
 
     def begin(self, k: int, bearing: BearingSystem) -> None:
         """Before its start is sought: let the springs of bearing k's seat rest where the other
@@ -115,16 +116,6 @@ class MovingSeats:
 def _mirror(seated: SeatedBearing) -> np.ndarray:
     """Signs (5,) from a bearing's own axes of the static solution to those of its run."""
     return FROM_MIRROR if seated.place.reversed else np.ones(5)
-
-
-def _turned(compliance: np.ndarray, seated: SeatedBearing) -> np.ndarray:
-    """Compliance (5, 5) of a seat, given in the machine's axes, in those of the bearing's run; none
-    along x for a ring that floats."""
-    signs = OTHER_WAY if seated.place.reversed else np.ones(5)
-    found = np.outer(signs, signs) * compliance
-    if seated.place.floats:
-        found[0, :] = found[:, 0] = 0.0
-    return found
 
 
 def _inverse(matrix: np.ndarray) -> np.ndarray:

@@ -79,7 +79,7 @@ class TurningShaft:
 
 def _own_modes(model: ShaftModel, rigid: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Frequencies (m,) [rad/s] and shapes (c, m), of unit mass, of a shaft that nothing holds."""
-    if not model.bends:
+    if model.rigid:
         return np.zeros(0), np.zeros((len(rigid), 0))
     last = min(RIGID_ROTOR + MOST, len(rigid)) - 1
     values, shapes = la.eigh(model.stiffness, model.mass, subset_by_index=(0, last))

@@ -13,8 +13,8 @@ from flexcage.bearings import statics_of
 from flexcage.contacts.spec import Contacts
 from flexcage.core.errors import FlexcageError, InputError
 from flexcage.geometry.bearing import Bearing
-from flexcage.machine.housing import SCALES, housing_seats
-from flexcage.machine.machine import Machine, SeatedBearing
+from flexcage.machine.housing import SCALES, HousingSeats, turned
+from flexcage.machine.machine import SeatedBearing
 from flexcage.system.spec import Load
 from flexcage.system.statics.elements import Elements
 from flexcage.system.statics.equilibrium import Posture, Problem, posture_at, tangent
@@ -120,11 +120,12 @@ def _approach(spec: SeatedBearing, force: float) -> float:
     return float(alone.displacement[0])
 
 
-def in_housing(machine: Machine, bearings: Sequence[Seated]) -> tuple[list[Seated], np.ndarray]:
+def in_housing(
+    seats: HousingSeats | None, bearings: Sequence[Seated]
+) -> tuple[list[Seated], np.ndarray]:
     """The bearings, those without a seat of their own in the machine's housing if it has one, and
     the stiffness (P, P) of all seats over the coordinates p of all outer rings."""
     own = [b.outer.stiffness for b in bearings]
-    seats = housing_seats(machine)
     if seats is None:
         return list(bearings), la.block_diag(*own)
     moved = list(bearings)
@@ -155,12 +156,9 @@ def _outer_ring(spec: SeatedBearing) -> OuterRing:
     place, case = spec.place, spec.case
     compliance = compliance_of(case.mount, case.bearing)
     whole = np.zeros((5, 5)) if compliance is None else compliance
-    if case.mount.body:  # the housing is written in the machine's axes
-        whole = np.outer(place.mirror, place.mirror) * whole
     floats = place.floats
-    if floats:
-        whole = whole.copy()
-        whole[0, :] = whole[:, 0] = 0.0
+    # a body is written in the machine's axes
+    whole = turned(whole, place.mirror if case.mount.body else np.ones(5), floats=floats)
     value, vector = np.linalg.eigh(_scaled(whole))
     soft = value > _HELD * max(float(value.max()), 1e-300)
     ways = SCALES[:, None] * vector[:, soft]

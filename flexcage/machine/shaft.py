@@ -34,14 +34,15 @@ class ShaftModel:
         return self.spec.kind == "rigid"
 
     @property
-    def bends(self) -> bool:
-        """Has it motions beside those of a rigid body?"""
-        return not self.rigid and bool(self.beams)
-
-    @property
     def ends(self) -> tuple[float, float]:
         """Its first and its last place [m]."""
-        return 0.0, float(self.places[-1])
+        return float(self.places[0]), float(self.places[-1])
+
+    @property
+    def reach(self) -> tuple[float, float]:
+        """From where to where [m] it is, by its length and its places."""
+        left, right = self.ends
+        return min(left, 0.0), max(right, self.spec.whole_length)
 
     def node(self, position: float) -> int:
         """The node at a place [m] where one was made."""

@@ -13,6 +13,7 @@ from flexcage.core.errors import InputError
 from flexcage.core.threads import one_blas_thread
 from flexcage.core.units import describe, mm
 from flexcage.machine.equilibrium import Standing, Together, balance, tangent_of
+from flexcage.machine.housing import housing_seats
 from flexcage.machine.machine import Machine
 from flexcage.machine.seating import Seated, in_housing, seat
 from flexcage.machine.shaft import ShaftModel, build_shaft
@@ -29,17 +30,19 @@ _NEAR = 0.15  # of a critical speed: closer, a warning
 
 
 @one_blas_thread
-def solve_machine(machine: Machine) -> MachineSolution:
+def solve_machine(machine: Machine, *, shaft: ShaftModel | None = None) -> MachineSolution:
     """Equilibrium of shaft and bearings under their loads, at the speed at which the drive begins.
 
-    Raises InputError for loads that the bearings cannot bear, RunFailed if no equilibrium is found.
+    ``shaft`` is the machine's own model, where it is there already. Raises InputError for loads
+    that the bearings cannot bear, RunFailed if no equilibrium is found.
     """
     expect(machine, Machine, "machine", "flexcage.load_machine reads one from a file")
-    shaft = _shaft_of(machine)
+    shaft = shaft or _shaft_of(machine)
     load = shaft.load(machine.gravity)
     size = _size(machine, shaft.by_node(machine.gravity))
     seats = [seat(b, shaft.dofs(b.place.position), size) for b in machine.bearings]
-    seats, stiffness = in_housing(machine, seats)
+    housing = housing_seats(machine)
+    seats, stiffness = in_housing(housing, seats)
     together = Together(shaft, load, seats, stiffness)
     found = balance(together)
     q, rings = together.split(found.z)
@@ -53,7 +56,7 @@ def solve_machine(machine: Machine) -> MachineSolution:
         coordinates=shaft.made @ found.z[: together.starts[0]],
         sections=shaft.borne(reactions, machine.gravity), bearings=tuple(results), load=load,
         tangent=_condensed(together, found), warnings=(), unbalanced=found.share_left,
-        whirl=machine.whirl, gravity=machine.gravity,
+        whirl=machine.whirl, gravity=machine.gravity, housing=housing,
     )  # fmt: skip
     return replace(solution, warnings=tuple(_warnings(machine, solution)))
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,6 +15,9 @@ from flexcage.machine.linear import Linearised, of_shaft
 from flexcage.machine.shaft import SectionForces, ShaftModel
 from flexcage.machine.spec import Gravity, Whirl
 from flexcage.system.statics.solution import StaticSolution
+
+if TYPE_CHECKING:
+    from flexcage.machine.housing import HousingSeats
 
 _NOTHING = 1e-13  # of the largest stiffness: a spring that holds what else nothing does
 _ROUNDING = 1e-6  # of a load's largest component [N, N m]
@@ -49,7 +53,8 @@ class MachineState:
     ``displacement`` (n, 5) are x, y, z and the turns about y and z of the shaft at ``position``
     (n,), and ``coordinates`` (c,) all of its own; ``sections`` what its sections bear, ``load``
     (c,) what loads it beside the bearings.
-    ``tangent`` are the exact slopes over the shaft's own motions, bearings and seats included.
+    ``tangent`` are the exact slopes over the shaft's own motions, bearings and seats included,
+    ``housing`` the seats of several rings in one body, if there is one.
     """
 
     name: str
@@ -65,6 +70,7 @@ class MachineState:
     unbalanced: float
     whirl: Whirl = Whirl()
     gravity: Gravity = Gravity()
+    housing: HousingSeats | None = None
 
     @property
     def position(self) -> np.ndarray:
@@ -110,10 +116,10 @@ class MachineState:
         return found
 
     def _at(self, position: float) -> np.ndarray:
-        length = max(self.shaft.ends[1], self.shaft.spec.whole_length)
-        if not 0.0 <= position <= length * (1.0 + 1e-12):
+        left, right = self.shaft.reach
+        if not left <= position <= right * (1.0 + 1e-12):
             raise InputError(
-                f"position is {mm(position)}, off the shaft, which is {mm(length)} long.",
+                f"position is {mm(position)}, off the shaft, which is {mm(right)} long.",
                 where="position", value=position,
             )  # fmt: skip
         return self.shaft.at(position)

@@ -11,6 +11,7 @@ from flexcage.core.errors import FlexcageError
 from flexcage.core.units import describe
 from flexcage.machine.linear import Linearised, amplitude
 from flexcage.machine.machine import Machine
+from flexcage.machine.shaft import ShaftModel
 from flexcage.machine.solution import MachineSolution
 from flexcage.machine.solve import solve_machine
 from flexcage.system.spec import Drive
@@ -32,7 +33,8 @@ def over_speeds(machine: Machine, solution: MachineSolution) -> Whirls | None:
     speeds = np.linspace(0.0, highest, wanted.points)
     found, orbits = [], []
     for w in map(float, speeds):
-        lines = solution.linearised if wanted.stiffness == "here" else _linearised_at(machine, w)
+        here = wanted.stiffness == "here"
+        lines = solution.linearised if here else _linearised_at(machine, w, solution.shaft)
         if lines is None:
             found.append((np.zeros(0), list[str]()))
             orbits.append(np.nan)
@@ -48,11 +50,12 @@ def over_speeds(machine: Machine, solution: MachineSolution) -> Whirls | None:
     return speeds, found, np.array(orbits)
 
 
-def _linearised_at(machine: Machine, speed: float) -> Linearised | None:
+def _linearised_at(machine: Machine, speed: float, shaft: ShaftModel) -> Linearised | None:
     """The machine linearised at another speed [rad/s]; None where it has no equilibrium."""
     drive = Drive(speed=speed)
     try:
         bearings = tuple(replace(b, case=replace(b.case, drive=drive)) for b in machine.bearings)
-        return solve_machine(replace(machine, drive=drive, bearings=bearings)).linearised
+        other = replace(machine, drive=drive, bearings=bearings)
+        return solve_machine(other, shaft=shaft).linearised
     except FlexcageError:
         return None

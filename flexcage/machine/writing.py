@@ -17,12 +17,13 @@ from flexcage.machine.machine import Machine
 from flexcage.machine.solution import BearingResult, MachineSolution
 from flexcage.machine.spec import Disc, Shaft
 from flexcage.machine.state import without_rounding
-from flexcage.machine.whirl import over_speeds
+from flexcage.machine.whirl import Whirls, over_speeds
 from flexcage.static import draw_static, write_static_numbers
 
 log = logging.getLogger(__name__)
 
-OURS = ("machine.toml", "machine.json")
+MACHINE = "machine.toml"
+OURS = (MACHINE, "machine.json")
 _FLAT = 0.15  # of its diameter: width of a disc that has none
 
 
@@ -32,14 +33,17 @@ def write_machine(machine: Machine, solution: MachineSolution, folder: Path) -> 
 
     A computer that cannot draw costs the pictures alone.
     """
-    written = write_numbers(machine, solution, folder)
+    whirls = over_speeds(machine, solution)
+    written = write_numbers(machine, solution, whirls, folder)
     with pictures_alone(log):
-        written += draw_at_rest(machine, solution, folder)
+        written += draw_at_rest(machine, solution, whirls, folder)
     return written
 
 
-def write_numbers(machine: Machine, solution: MachineSolution, folder: Path) -> list[Path]:
-    """What ``write_machine`` writes, but for pictures."""
+def write_numbers(
+    machine: Machine, solution: MachineSolution, whirls: Whirls | None, folder: Path
+) -> list[Path]:
+    """What ``write_machine`` writes, but for pictures; ``whirls`` are those of ``over_speeds``."""
     folder.mkdir(parents=True, exist_ok=True)
     write_text(folder / "machine.toml", machine.to_toml())
     write_text(folder / "machine.txt", solution.table(PAGE) + "\n")
@@ -47,16 +51,17 @@ def write_numbers(machine: Machine, solution: MachineSolution, folder: Path) -> 
     written = [folder / name for name in ("machine.toml", "machine.txt", "machine.json")]
     for case, own in _loaded(machine, solution):
         written += write_static_numbers(case, own.solution, folder / own.name)
-    whirls = over_speeds(machine, solution)
     if whirls is not None:
         write_text(folder / "whirl.csv", _as_csv(*whirls))
         written.append(folder / "whirl.csv")
     return written
 
 
-def draw_at_rest(machine: Machine, solution: MachineSolution, folder: Path) -> list[Path]:
+def draw_at_rest(
+    machine: Machine, solution: MachineSolution, whirls: Whirls | None, folder: Path
+) -> list[Path]:
     """Draw machine.png and whirl.png into a folder, and every bearing's static.png into its own."""
-    made = draw_whole(machine, solution, folder)
+    made = draw_whole(machine, solution, whirls, folder)
     for case, own in _loaded(machine, solution):
         made += draw_static(case, own.solution, folder / own.name)
     return made
@@ -97,12 +102,14 @@ def _as_csv(
     return "\n".join(lines) + "\n"
 
 
-def draw_whole(machine: Machine, solution: MachineSolution, folder: Path) -> list[Path]:
+def draw_whole(
+    machine: Machine, solution: MachineSolution, whirls: Whirls | None, folder: Path
+) -> list[Path]:
     """Draw machine.png and, of a shaft with mass that turns, whirl.png into a folder."""
     from flexcage.render.machine_pictures import whirl_picture
 
     made = [draw_machine(machine, solution, folder / "machine.png")]
-    if (whirls := over_speeds(machine, solution)) is not None:
+    if whirls is not None:
         speed = f"{solution.speed * 30.0 / pi:.5g} rpm"
         anew = machine.whirl.stiffness == "each_speed"
         note = f"bearings' stiffness at the machine's load and {'each speed' if anew else speed}"
@@ -127,7 +134,7 @@ def draw_machine(machine: Machine, solution: MachineSolution, path: str | Path) 
         one_way = bool(getattr(b, "one_sided", False)) or sum(getattr(b, "carried", ())) == 1
         faces = (1 if place.facing == "+x" else -1) if one_way else 0
         bearings.append(Drawn(own.name, own.position, b.bore, b.outside_diameter, b.width, faces,
-                              place.axial_seat == "floating", own.force[:3]))  # fmt: skip
+                              place.floats, own.force[:3]))  # fmt: skip
     drawing = ShaftDrawing(
         sections_drawn(shaft, [b.bore for b in bearings]), bearings,
         discs_drawn(shaft.discs, shaft.whole_length),

@@ -25,6 +25,7 @@ from flexcage.core.sources import physics
 from flexcage.core.toml import read_toml
 from flexcage.core.writing import check_own
 from flexcage.machine.machine import Machine
+from flexcage.machine.writing import MACHINE
 from flexcage.machine_run.turning import KEPT, Turning, kept_turning
 from flexcage.results.commit import checksum, damaged
 from flexcage.results.store import MemoryRunStore, RunStore
@@ -33,7 +34,6 @@ from flexcage.run.seams import check_physics
 
 log = logging.getLogger(__name__)
 
-_FIRST = "machine.toml"
 _NOT_OF_A_RUN = ("name", "description", "whirl", "given")
 _FROM_STATIC = "load."  # keys of a bearing's case that the static solution gives
 
@@ -89,14 +89,14 @@ def begun_machine(
     """
     path = folder / SHAFT_STORE
     check_own(path, *(folder / b.place.name for b in machine.bearings))
-    if was_written(folder, _FIRST):
-        _check_same(folder, machine, (folder / _FIRST).read_text("utf-8"))
+    if was_written(folder, MACHINE):
+        _check_same(folder, machine, (folder / MACHINE).read_text("utf-8"))
     if not RunStore.begun(path):
         _clear(folder, [b.place.name for b in machine.bearings])
         log.warning("the run in '%s' was stopped before its first block; it begins anew", folder)
         return None
     shaft = RunStore.open(path)
-    _check_same(folder, machine, str(shaft.layout.attrs.get("machine")))
+    _check_same(folder, machine, kept(shaft, "machine"))
     _check_files(folder, shaft, machine.files)
     stores = {b.place.name: _opened(folder / b.place.name, shaft) for b in machine.bearings}
     if not shaft.complete:
@@ -129,7 +129,7 @@ def _opened(folder: Path, shaft: MemoryRunStore) -> RunStore:
 
 def _check_same(folder: Path, machine: Machine, text: str) -> None:
     """InputError if the machine of a run, by its text, is another one."""
-    was, now = (_entries(read_toml(t, _FIRST)) for t in (text, machine.to_toml()))
+    was, now = (_entries(read_toml(t, MACHINE)) for t in (text, machine.to_toml()))
     keys = [key for key in {**was, **now} if was.get(key) != now.get(key)]
     if keys:
         raise _another(folder, named(keys, now, was), "machine")

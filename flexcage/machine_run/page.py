@@ -8,6 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from flexcage.core.errors import EnvironmentLacks
+from flexcage.machine.whirl import over_speeds
 from flexcage.machine.writing import draw_whole
 from flexcage.machine_run.run import (
     OF_BEARINGS,
@@ -74,7 +75,9 @@ def _at_rest(run: MachineRun, spare: Path) -> list[Path]:
     if found or run.solution is None:
         return found
     (spare / "rest").mkdir()
-    return draw_whole(run.machine, run.solution, spare / "rest")
+    return draw_whole(
+        run.machine, run.solution, over_speeds(run.machine, run.solution), spare / "rest"
+    )
 
 
 def _page(run: MachineRun, images: list[Image], lacking: str) -> Page:

@@ -22,11 +22,13 @@ from flexcage.core.writing import write_text
 from flexcage.machine.machine import Machine, load_machine
 from flexcage.machine.solution import MachineSolution
 from flexcage.machine.spec import BearingPlace
-from flexcage.machine.writing import draw_at_rest
+from flexcage.machine.whirl import over_speeds
+from flexcage.machine.writing import MACHINE, draw_at_rest
 from flexcage.machine_run.record import ShaftRecord, imbalance
 from flexcage.results.metrics import settled
 from flexcage.results.store import RunStore
 from flexcage.run import Run
+from flexcage.run.folder import kept, resume_command
 from flexcage.simulate import load_run
 
 SUMMARY = "machine_summary"
@@ -185,7 +187,9 @@ class MachineRun:
         into.mkdir(parents=True, exist_ok=True)
         made = [self.draw_machine(into / "machine.png"), self.draw_shaft(into / "shaft.png")]
         if self.folder is not None and self.solution is not None:
-            made += draw_at_rest(self.machine, self.solution, self.folder)
+            made += draw_at_rest(
+                self.machine, self.solution, over_speeds(self.machine, self.solution), self.folder
+            )
         for name, run in self.bearings.items():
             made += run.draw(into / name, **look)
         return made
@@ -288,14 +292,14 @@ def load_machine_run(folder: str | Path) -> MachineRun:
     from flexcage.machine.motion import as_it_begins
     from flexcage.machine.solve import solve_machine
 
-    machine = load_machine(path / "machine.toml")
     store = RunStore.open(path / SHAFT_STORE)
     if store.n_time < 2:
         raise InputError(
-            f"The machine's run in '{path}' holds fewer than two samples; 'flexcage run "
-            f"{path / 'machine.toml'} -o {path} --resume' goes on with it.",
+            f"The machine's run in '{path}' holds fewer than two samples; "
+            f"'{resume_command(path, MACHINE)}' goes on with it.",
             where="run", value=str(path),
         )  # fmt: skip
+    machine = load_machine(kept(store, "machine"))  # as it was run, whatever its file says by now
     runs = {b.place.name: load_run(path / b.place.name) for b in machine.bearings}
     record = ShaftRecord.of(store)
     there = all(Path(file).is_file() for file in machine.files.values())

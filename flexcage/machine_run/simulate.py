@@ -32,7 +32,8 @@ from flexcage.machine.moving_seats import MovingSeats
 from flexcage.machine.rotor import TurningShaft
 from flexcage.machine.solution import BearingResult
 from flexcage.machine.solve import solve_machine
-from flexcage.machine.writing import OURS, write_numbers
+from flexcage.machine.whirl import over_speeds
+from flexcage.machine.writing import MACHINE, write_numbers
 from flexcage.machine_run.folder import BegunMachine, attributes, begun_machine
 from flexcage.machine_run.record import ShaftRecord
 from flexcage.machine_run.run import MachineRun
@@ -81,7 +82,7 @@ def simulate_machine(
     folder = path_of(out, "out")
     check_no_file(folder)
     if resume:
-        check_written(folder, OURS[0])
+        check_written(folder, MACHINE)
     with held(folder, inside=True):
         begun = begun_machine(folder, machine, other_version=other_version) if resume else None
         return _simulated(machine, folder, begun, stress, progress)
@@ -94,7 +95,7 @@ def _simulated(
     clock = Stages(progress)
     solution = clock("static", solve_machine, as_it_begins(machine))
     if folder is not None and begun is None:
-        write_numbers(machine, solution, folder)
+        write_numbers(machine, solution, over_speeds(machine, solution), folder)
     turning = begun.turning if begun else turning_of(TurningShaft(machine, solution))
     seats = MovingSeats(machine, solution)
     ready = [

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from flexcage.machine.machine import Machine
 from flexcage.machine.rotor import TurningShaft
 from flexcage.results.commit import damaged
 from flexcage.results.store import MemoryRunStore
@@ -58,7 +57,7 @@ class Turning:
 
 def turning_of(shaft: TurningShaft) -> Turning:
     """A shaft that has been brought into equilibrium."""
-    places = _places(shaft.machine)
+    places = _places(shaft)
     moved = np.array([shaft.at(x) for x in places.values()])
     return Turning(rotor=shaft.rotor(), pose=shaft.pose(), places=places, moved=moved)
 
@@ -71,12 +70,13 @@ def kept_turning(store: MemoryRunStore) -> Turning:
         raise damaged(Path(str(store.path)), "does not say what its shaft is") from error
 
 
-def _places(machine: Machine) -> dict[str, float]:
+def _places(shaft: TurningShaft) -> dict[str, float]:
     """Named places along the shaft [m]: bearings, discs, ends."""
+    machine = shaft.machine
     found = {b.place.name: b.place.position for b in machine.bearings}
     for k, disc in enumerate(machine.shaft.discs):
         found[disc.name or f"disc {k}"] = disc.position
-    for name, end in (("left end", 0.0), ("right end", machine.shaft.whole_length)):
+    for name, end in zip(("left end", "right end"), shaft.model.reach):
         if all(abs(end - place) > _SAME for place in found.values()):
             found[name] = end
     return found

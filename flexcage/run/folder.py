@@ -204,8 +204,13 @@ def open_folder(folder: Path) -> tuple[Case, MemoryRunStore, tuple[RunWarning, .
 def way_on(folder: Path, store: MemoryRunStore) -> str:
     """The command that goes on with the run in a folder, or with the machine that it is part of."""
     if PART_OF in store.layout.attrs:
-        return f"flexcage run {folder.parent / 'machine.toml'} -o {folder.parent} --resume"
-    return f"flexcage run {folder / 'case.toml'} -o {folder} --resume"
+        return resume_command(folder.parent, "machine.toml")
+    return resume_command(folder, "case.toml")
+
+
+def resume_command(folder: Path, file: str) -> str:
+    """The command that goes on with the run in a folder, of what its ``file`` says."""
+    return f"flexcage run {folder / file} -o {folder} --resume"
 
 
 def report_unfinished(folder: Path, store: MemoryRunStore, duration: float) -> None:

@@ -10,6 +10,8 @@ from reduced_shafts import LENGTH, beam_body, beams, reduced, rotor, shaft_of
 
 from flexcage import load_machine, solve_machine
 from flexcage.core.errors import InputError
+from flexcage.machine.rotor import TurningShaft
+from flexcage.machine_run.turning import turning_of
 from flexcage.modes.exchange.body import ReducedBody
 from flexcage.modes.exchange.formats import read_body, write_body
 
@@ -210,3 +212,12 @@ def test_a_body_tells_of_its_stations_alone(beam, whole, tmp_path):
     assert "elastic shaft in 2 bearings" in found.table()
     again = load_machine(load_machine(rotor(shaft_of(whole, tmp_path))).to_toml())
     assert again.shaft.body == str(tmp_path / "shaft.npz")
+
+
+def test_a_body_may_reach_a_little_beyond_the_shaft_s_length(whole, tmp_path):
+    machine = load_machine(rotor({**shaft_of(whole, tmp_path), "length": "259 mm"}))
+    found = solve_machine(machine)
+    assert "shaft, right end" in found.table()
+    assert turning_of(TurningShaft(machine, found)).places["right end"] == pytest.approx(0.26)
+    whole_length = solved(shaft_of(whole, tmp_path))
+    np.testing.assert_allclose(found.compliance_at(0.26), whole_length.compliance_at(0.26))

@@ -119,6 +119,17 @@ def test_names_and_speeds_of_a_diagram_do_not_count(tmp_path, half):
     assert simulate_machine(renamed, out=folder, resume=True, stress=False).record
 
 
+def test_a_stored_machine_is_the_one_that_was_run(tmp_path, unbroken):
+    """An edit of machine.toml afterwards changes no figure."""
+    folder = copied(unbroken.folder, tmp_path)
+    text = (folder / "machine.toml").read_text()
+    assert "8000 rpm" in text
+    (folder / "machine.toml").write_text(text.replace("8000 rpm", "4000 rpm"))
+    again = load_machine_run(folder)
+    assert again.machine == unbroken.machine
+    assert again.summary.to_dict() == unbroken.summary.to_dict()
+
+
 def test_other_physics_goes_on_only_when_asked(tmp_path, half, monkeypatch):
     folder = copied(half, tmp_path)
     monkeypatch.setattr(seams, "physics", lambda: "0123456789abcdef")
