@@ -192,12 +192,17 @@ def run(paper: Paper, folder: Path, out: Path, *, workers: int, quick: bool) -> 
     for file in () if quick else paper.studies:
         run_study(load_study(folder / file), out=_of(out, file), workers=workers, progress=Progress)
     for file in _maps(paper):
-        spec = load_map(folder / file, overrides=changes)
-        if quick:
-            few = replace(spec, count=4, starts=1)
-            run_map(few, out=_of(out, file), workers=workers, progress=Progress)
-        elif lacking := read_settings(folder / table_name(file), spec).lacking:
+        spec = _spec(folder, file, quick)
+        lacking = None if quick else read_settings(folder / table_name(file), spec).lacking
+        if lacking != []:
             run_map(spec, points=lacking, out=_of(out, file), workers=workers, progress=Progress)
+
+
+def _spec(folder: Path, file: str, quick: bool) -> Map:
+    """A map of the paper; ``quick``: of four settings and short runs."""
+    if not quick:
+        return load_map(folder / file)
+    return replace(load_map(folder / file, overrides=QUICK), count=4, starts=1)
 
 
 def table_name(file: str) -> str:
@@ -255,11 +260,9 @@ def collect(paper: Paper, folder: Path, out: Path, *, quick: bool = False) -> Co
 
 def _runs(folder: Path, out: Path, file: str, quick: bool) -> Settings:
     """Runs of a map: of the paper's table, and of the folder of runs, which count first."""
-    path = _of(out, file)
+    spec, path = _spec(folder, file, quick), _of(out, file)
     if quick:
-        few = replace(load_map(folder / file, overrides=QUICK), count=4, starts=1)
-        return settings_of(MapResults(path), few)
-    spec = load_map(folder / file)
+        return settings_of(MapResults(path), spec)
     found = read_settings(folder / table_name(file), spec)
     return found.with_(settings_of(MapResults(path), spec)) if path.is_dir() else found
 

@@ -141,6 +141,24 @@ def test_a_page_is_judged_from_its_tables(tables, paper, folder, tmp_path):
     assert sum(computed.times.values()) == pytest.approx(2.0 * rows)
 
 
+def test_tables_are_written_again_as_they_are(tables, paper, folder, tmp_path):
+    import repeat
+    from judging.stored import read_starts
+
+    starts = [
+        {"reading": name, "condition": c, "start": k, "x": 0.1 * k, "seconds": 1.0, "physics": "a"}
+        for name in list(paper.readings)[:2] for c in ("a", "b") for k in range(3)
+    ]  # fmt: skip
+    pd.DataFrame(starts).to_csv(repeat.STARTS, index=False)
+    before = {file: Path(repeat.table_name(file)).read_bytes() for file in tables}
+    computed = repeat.collect(paper, folder, tmp_path / "none")
+    assert [len(r.table) for r in computed.readings.values()] == [6] * len(computed.readings)
+    repeat.write_tables(computed, folder)
+    assert {file: Path(repeat.table_name(file)).read_bytes() for file in tables} == before
+    again = read_starts(Path(repeat.STARTS))
+    assert {n: len(t) for n, t in again.items()} == {n: 6 for n in computed.readings}
+
+
 def test_runs_go_on_from_the_tables(tables, paper, folder, tmp_path, monkeypatch):
     import repeat
 
@@ -161,3 +179,6 @@ def test_tables_of_other_settings_are_not_taken(tables):
         other = replace(made.spec, seed=made.spec.seed + 1)
         assert read_settings(Path(repeat.table_name(file)), made.spec).lacking == [1]
         assert len(read_settings(Path(repeat.table_name(file)), other).lacking) == other.count
+        conditions = ({**made.spec.conditions[0], "load.radial": "1 N"}, *made.spec.conditions[1:])
+        changed = replace(made.spec, conditions=conditions)
+        assert len(read_settings(Path(repeat.table_name(file)), changed).lacking) == other.count

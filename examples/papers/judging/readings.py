@@ -79,8 +79,8 @@ class Reading:
 def readings_of(
     out: Path, files: Mapping[str, tuple[str, str]], stored: Mapping[str, pd.DataFrame]
 ) -> dict[str, Reading]:
-    """Readings by column, each of a file and a label: of the studies in the folder ``out``, else of
-    ``stored`` tables, else none."""
+    """Readings by column, each of a file and a label: of the studies in the folder ``out``, or of
+    ``stored`` tables where these have more starts."""
     opened: dict[Path, StudyResults] = {}
     found = {}
     for column, (file, label) in files.items():
@@ -88,7 +88,9 @@ def readings_of(
         if path.is_dir():
             opened.setdefault(path, StudyResults(path))
             found[column] = _of_study(label, opened[path])
-        elif column in stored:
+        if column in stored and (
+            column not in found or len(found[column].table) < len(stored[column])
+        ):
             found[column] = Reading(label, stored[column])
     return found
 

@@ -2,6 +2,8 @@
 
 ``settings_<map>.csv`` has a row a run of a map, ``starts.csv`` one a run of a reading: outputs in
 SI to seven digits, empty where a run failed; processor time [s]; and the physics that computed it.
+Ranges, conditions and design of the map are known by their hash; a change of its base case is not
+seen, so remove the table after one.
 """
 
 from __future__ import annotations
@@ -14,12 +16,14 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from flexcage.core.hashing import content_hash
 from flexcage.study import Map, MapResults
 from flexcage.study.maps import CONDITION as LABEL
 from flexcage.study.maps import SAMPLE
 
 SETTING, START, CONDITION, SECONDS, PHYSICS = "setting", "start", "condition", "seconds", "physics"
 KEYS = [SETTING, START, CONDITION]
+MAP = "map"  # column of the hash
 SHORT = 8  # characters of a version of the equations
 DIGITS = "%.7g"
 
@@ -69,7 +73,8 @@ class Settings:
         """A table with the shares of all unknowns beside the outputs; the file's name."""
         shares = pd.DataFrame(self.spec.shares[:, :-1], columns=_columns(self.spec))
         table = self.table.join(shares.round(5), on=SETTING)
-        front = [*KEYS, *shares.columns]
+        table = table.assign(**{MAP: _hash(self.spec)})
+        front = [MAP, *KEYS, *shares.columns]
         rest = [c for c in table if c not in front]
         table[[*front, *rest]].to_csv(path, index=False, float_format=DIGITS)
         return path.name
@@ -86,31 +91,30 @@ def read_settings(path: Path, spec: Map) -> Settings:
     settings or outputs, which a line says."""
     if not path.is_file():
         return empty(spec)
-    table = pd.read_csv(path, dtype={CONDITION: str, PHYSICS: str})
-    names = _columns(spec)
-    needed = {*KEYS, SECONDS, PHYSICS, *names, *spec.outputs}
-    if not needed <= set(table) or not _same(table, spec, names):
+    table = pd.read_csv(path, dtype={CONDITION: str, PHYSICS: str, MAP: str})
+    needed = {MAP, *KEYS, SECONDS, PHYSICS, *_columns(spec), *spec.outputs}
+    if not needed <= set(table) or set(table[MAP]) - {_hash(spec)}:
         print(f"{path.name} is of other settings or outputs: its runs are computed anew")
         return empty(spec)
-    known = table[CONDITION].isin([str(c["label"]) for c in spec.conditions])
-    return Settings(spec, table[known].drop(columns=names))
+    return Settings(spec, table.drop(columns=[MAP, *_columns(spec)]))
 
 
 def _columns(spec: Map) -> list[str]:
     return [f"share of {name}" for name in spec.names[:-1]]
 
 
-def _same(table: pd.DataFrame, spec: Map, names: Sequence[str]) -> bool:
-    """Whether the table's settings are those of the map's design."""
-    if len(table) and (table[SETTING].max() >= len(spec.shares) or table[START].max() >=
-                       spec.starts):  # fmt: skip
-        return False
-    shares = spec.shares[table[SETTING].to_numpy(int), :-1]
-    return bool(np.allclose(table[names].to_numpy(float), shares, atol=1e-4))
+def _hash(spec: Map) -> str:
+    """Of ranges, conditions and design."""
+    ranges = [unknown.in_words() for unknown in spec.unknowns]
+    shares, conditions = spec.shares.round(9).tolist(), [dict(c) for c in spec.conditions]
+    return content_hash(ranges, conditions, shares, spec.starts)
 
 
 def settings_of(found: MapResults, spec: Map) -> Settings:
-    """Runs that a map's folder holds, done or failed."""
+    """Runs that a map's folder holds, done or failed; none of a folder of another map."""
+    own = spec.stored()
+    if any(found.about[k] != own[k] for k in ("names", "ranges", "shares", "starts", "conditions")):
+        return empty(spec)
     rows = [_row(row, found.study.about.outputs) for row in found.study.rows
             if row.state in ("done", "failed")]  # fmt: skip
     return empty(spec).with_(Settings(spec, pd.DataFrame(rows))) if rows else empty(spec)
@@ -140,4 +144,7 @@ def read_starts(path: Path) -> Mapping[str, pd.DataFrame]:
     if not path.is_file():
         return {}
     table = pd.read_csv(path, dtype={"reading": str, CONDITION: str, PHYSICS: str})
-    return dict(tuple(table.groupby("reading", sort=False))) if SECONDS in table else {}
+    if SECONDS not in table:
+        return {}
+    parts = table.groupby("reading", sort=False)
+    return {str(name): part.drop(columns="reading") for name, part in parts}
