@@ -90,11 +90,12 @@ def _yield(o: RunOutcome) -> Iterator[RunWarning]:
 
 def _overloaded(o: RunOutcome) -> Iterator[RunWarning]:
     """Forces beyond what ISO 76 allows the most loaded element under the static rating: 5 C0r/(Z
-    cos(alpha)) of a radial bearing, C0a/(Z sin(alpha)) of a thrust bearing."""
+    cos(alpha)) of a radial bearing, C0a/(Z sin(alpha)) of a thrust bearing; of elements of another
+    material than the rings' the force that presses as hard."""
     b = o.bearing
     angle = b.nominal_contact_angle
     share = sin(angle) if b.is_thrust else cos(angle) / _STRIBECK
-    allowed = b.static_rating / (b.element_count * share)
+    allowed = b.static_rating * b.stress_share / (b.element_count * share)
     largest = max((o.number("race_force_inner"), o.number("race_force_outer")), default=0.0)
     if largest > allowed:
         yield RunWarning(

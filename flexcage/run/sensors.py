@@ -21,7 +21,7 @@ from flexcage.stress.gauge_lines import gauge_rows
 if TYPE_CHECKING:
     import xarray
 
-    from flexcage.results.signals.housing import HousingPath
+    from flexcage.results.signals.housing import SensedHousing
     from flexcage.results.slip import BearingNumbers
     from flexcage.stress.run_stress import RunStress
 
@@ -33,8 +33,10 @@ def check_places(case: Case, cage: CageReduction | None) -> None:
     if gauges and cage is not None:
         count = cage.mesh.pocket_count
         gauge_rows(cage.model, gauges, count, case.its_cage.mean_radius)
-    for sensor in _on_housing(case.sensors):
-        _housing_path(case, sensor)
+    if on_housing := _on_housing(case.sensors):
+        housing = _housing(case)
+        for sensor in on_housing:
+            housing.check(sensor)
 
 
 def run_signals(
@@ -51,7 +53,10 @@ def run_signals(
         "flexcage": __version__, "speed (rpm)": rpm,
         **{f"{k} (Hz)": v for k, v in lines.items()},
     }  # fmt: skip
-    computed = {s.name: _housing_path(case, s).acceleration(ds) for s in _on_housing(sensors)}
+    computed = {}
+    if on_housing := _on_housing(sensors):
+        paths = _housing(case).paths(on_housing)
+        computed = {s.name: path.acceleration(ds) for s, path in zip(on_housing, paths)}
     if gauges := _gauges(sensors):
         strains = stress().strains(gauges, case.its_cage.mean_radius)
         computed |= {gauge.name: own for gauge, own in zip(gauges, strains)}
@@ -68,11 +73,11 @@ def _on_housing(sensors: Sequence[Sensor]) -> list[Accelerometer]:
     return [s for s in sensors if isinstance(s, Accelerometer) and s.place == HOUSING]
 
 
-def _housing_path(case: Case, sensor: Accelerometer) -> HousingPath:
-    from flexcage.results.signals.housing import HousingPath  # with readers of files
+def _housing(case: Case) -> SensedHousing:
+    from flexcage.results.signals.housing import SensedHousing  # with readers of files
 
     bearing = case.mounted.bearing
-    return HousingPath.of(
-        sensor, case.mount, diameter=bearing.outside_diameter, width=bearing.width,
+    return SensedHousing.of(
+        case.mount, diameter=bearing.outside_diameter, width=bearing.width,
         ring=(bearing.outer_ring_mass, *bearing.outer_ring_inertia),
     )  # fmt: skip

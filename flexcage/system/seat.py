@@ -34,6 +34,7 @@ _OFF = 0.02  # of the seat's radius, that a node may lie off it: facets of a coa
 _CENTRE = 0.01  # of the seat's radius, that a single node may lie off the bearing's centre
 # assumptions, of E B: brackets are a hundred times softer, a solid all round is hardly stiffer
 _SOFTEST, _STIFFEST = 5e-3, 30.0
+DENSE = 2000  # coordinates, to which matrices are solved dense
 _SINGULAR = 1e-11  # of the scaled stiffness's largest eigenvalue
 _FIVE = [0, 1, 2, 4, 5]  # x, y, z and tilts about y, z of six motions
 
@@ -58,12 +59,20 @@ def seated(mount: Mount, *, diameter: float, width: float) -> Seated:
     ``width`` [m]. InputError for nodes that are not at the seat."""
     body = read_body(mount.body, nodes=mount.body_nodes, units=mount.body_units, where=WHERE)
     nodes = seat_nodes(body, mount, diameter=diameter, width=width)
-    own = np.flatnonzero(np.isin(body.dofs[:, 0], nodes))
-    if mount.seat_tie == "average" and len(nodes) > 1:
-        own = own[body.dofs[own, 1] < 3]  # turns of single nodes say nothing of the seat's
-    motions = _motions(body, own)
-    _check_rank(body, motions, diameter)
-    return _TIES[mount.seat_tie](body, [own], [motions])
+    return _tied(body, mount.seat_tie, [(nodes, 0.0, diameter)])
+
+
+def _tied(body: ReducedBody, tie: str, seats: Sequence[tuple[np.ndarray, float, float]]) -> Seated:
+    """The body with rings on its seats: nodes, centre along x and diameter [m] of each."""
+    own, motions = [], []
+    for nodes, centre, diameter in seats:
+        rows = np.flatnonzero(np.isin(body.dofs[:, 0], nodes))
+        if tie == "average" and len(nodes) > 1:
+            rows = rows[body.dofs[rows, 1] < 3]  # turns of single nodes say nothing of the seat's
+        own.append(rows)
+        motions.append(_motions(body, rows, centre))
+        _check_rank(body, motions[-1], diameter)
+    return _TIES[tie](body, own, motions)
 
 
 def seat_compliance(mount: Mount, *, diameter: float, width: float) -> np.ndarray:
@@ -92,17 +101,12 @@ def seats_compliance(
     InputError for a housing that is not held, or a place where it has no seat.
     """
     body = read_body(file.body, nodes=file.body_nodes, units=file.body_units, where=where)
-    own, motions = [], []
-    for centre, diameter, width in places:
-        nodes = _nodes_at(body, centre, 0.5 * diameter, width, where)
-        rows = np.flatnonzero(np.isin(body.dofs[:, 0], nodes))
-        if tie == "average" and len(nodes) > 1:
-            rows = rows[body.dofs[rows, 1] < 3]
-        own.append(rows)
-        motions.append(_motions(body, rows, centre))
-        _check_rank(body, motions[-1], diameter)
+    seats = [
+        (_nodes_at(body, centre, 0.5 * diameter, width, where), centre, diameter)
+        for centre, diameter, width in places
+    ]
     five = (6 * np.arange(len(places))[:, None] + _FIVE).ravel()
-    return _compliance(_TIES[tie](body, own, motions), five)
+    return _compliance(_tied(body, tie, seats), five)
 
 
 def _nodes_at(
@@ -247,7 +251,7 @@ _TIES = {"rigid": _following, "average": _averaged}
 def solved(body: ReducedBody, stiffness: Any, loads: np.ndarray) -> np.ndarray:
     """Displacements (n, k) under loads (n, k); InputError where nothing holds the body."""
     try:
-        if body.size > 2000:
+        if body.size > DENSE:
             return linear_solver(stiffness, kind=available_kinds()[0]).solve(loads)
         dense = stiffness.toarray()
         size = np.sqrt(np.maximum(np.diag(dense), 0.0))

@@ -14,7 +14,7 @@ from flexcage.core.errors import InputError
 from flexcage.modes.exchange.body import MODAL, ReducedBody
 from flexcage.modes.exchange.formats import write_body
 from flexcage.results.signals import housing
-from flexcage.results.signals.housing import HousingPath
+from flexcage.results.signals.housing import SensedHousing
 from flexcage.spec import Accelerometer, Mount
 
 RADIUS, WIDTH = 40e-3, 16e-3
@@ -22,11 +22,18 @@ RING = (0.3, 4e-4, 2.2e-4)  # kg, kg m^2 about x and across
 ZETA = 0.03
 
 
-def path_of(body, folder, *, tie="rigid", node=9, ring=RING, **values):
+def path_of(body, folder, *, node=9):
     file = write_body(body, folder / "housing.npz")
-    sensor = Accelerometer(name="foot", place="housing", node=node, housing_damping=ZETA, **values)
-    mount = Mount(body=str(file), seat="", seat_tie=tie)
-    return HousingPath.of(sensor, mount, diameter=2 * RADIUS, width=WIDTH, ring=ring)
+    sensor = Accelerometer(name="foot", place="housing", node=node, housing_damping=ZETA)
+    return path_in(Mount(body=str(file), seat=""), sensor)
+
+
+def path_in(mount, sensor):
+    """That of a sensor; a check before the run refuses what it would refuse."""
+    housing = SensedHousing.of(mount, diameter=2 * RADIUS, width=WIDTH, ring=RING)
+    housing.check(sensor)
+    (found,) = housing.paths([sensor])
+    return found
 
 
 def two_masses():
@@ -121,7 +128,7 @@ def seated_path(body, folder, **values):
     tie = values.pop("tie", "rigid")
     sensor = Accelerometer(name="foot", place="housing", node=9, housing_damping=ZETA, **values)
     mount = Mount(body=str(file), body_nodes=str(deck), seat="ring", seat_tie=tie)
-    return HousingPath.of(sensor, mount, diameter=2 * RADIUS, width=WIDTH, ring=RING)
+    return path_in(mount, sensor)
 
 
 @pytest.mark.parametrize("tie", ["rigid", "average"])

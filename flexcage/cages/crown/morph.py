@@ -15,7 +15,7 @@ import numpy as np
 from flexcage.cages.crown.cage import CrownCage
 from flexcage.geometry.defect import CageLine
 from flexcage.mesh.cage_mesh import CageMesh
-from flexcage.mesh.doubling import with_doubled
+from flexcage.mesh.doubling import opened_at
 from flexcage.mesh.measure import in_pocket_frame
 from flexcage.mesh.ring import turn_about_x
 from flexcage.mesh.sector import orient_outward
@@ -37,9 +37,14 @@ def _cells_of_claw(
     mesh: CageMesh, cells: np.ndarray, cage: CrownCage, pocket: int, sign: float
 ) -> np.ndarray:
     """Which cells (n, .) belong to a claw."""
-    middles = mesh.points[cells].mean(axis=1)
-    above = middles[:, 0] > cage.bar_height
-    return above & _on_side(middles, pocket, sign, mesh.pocket_count)
+    return _of_claw(mesh.points[cells].mean(axis=1), cage, pocket, sign, mesh.pocket_count)
+
+
+def _of_claw(
+    points: np.ndarray, cage: CrownCage, pocket: int, sign: float, count: int
+) -> np.ndarray:
+    """Which points (n, 3) are those of a claw."""
+    return (points[:, 0] > cage.bar_height) & _on_side(points, pocket, sign, count)
 
 
 def bent_share(x: np.ndarray, cage: CrownCage) -> np.ndarray:
@@ -135,16 +140,9 @@ def crack_claw(
     shared = np.intersect1d(sound.tets[claw], sound.tets[~claw])
     inside = np.hypot(*sound.points[shared, 1:].T) < front - tiny
     old = shared[inside & (np.abs(sound.points[shared, 0] - cage.bar_height) < tiny)]
-    copy = np.arange(len(mesh.points))
-    copy[old] = len(copy) + np.arange(len(old))
-    tets = np.where(claw[:, None], copy[mesh.tets], mesh.tets)
-    groups = {}
-    for name, part in mesh.groups.items():
-        above = _cells_of_claw(sound, sound.groups[name], cage, pocket, sign)
-        groups[name] = np.where(above[:, None], copy[part], part)
-    points = np.vstack([mesh.points, mesh.points[old]])
-    info = with_doubled(mesh, old)
-    return replace(mesh, points=points, tets=tets, groups=MappingProxyType(groups), info=info)
+    return opened_at(
+        sound, mesh, old, lambda middles: _of_claw(middles, cage, pocket, sign, sound.pocket_count)
+    )
 
 
 def _doubled(points: np.ndarray, pocket: int, sign: float, count: int) -> np.ndarray:

@@ -66,15 +66,12 @@ def _refuse_swollen(report: Sequence[Mapping[str, Any]], defects: Sequence[Windo
 
 def break_crossbeam(sound: CageMesh, mesh: CageMesh, crossbeam: int) -> CageMesh:
     """``mesh``, numbered as ``sound`` but for copies, with a crossbeam cut in its middle plane."""
-    x, radial, tangential = in_pocket_frame(sound.points, crossbeam - 0.5, sound.pocket_count).T
-    near = np.abs(np.arctan2(tangential, radial)) < np.pi / sound.pocket_count
+    x, count = sound.points[:, 0], sound.pocket_count
     tiny = 1e-6 * np.ptp(x)
-    cut = np.flatnonzero(near & (np.abs(x) < tiny))
+    cut = np.flatnonzero(_near(sound.points, crossbeam, count) & (np.abs(x) < tiny))
 
     def behind(centres: np.ndarray) -> np.ndarray:
-        _, radial, tangential = in_pocket_frame(centres, crossbeam - 0.5, sound.pocket_count).T
-        own = np.abs(np.arctan2(tangential, radial)) < np.pi / sound.pocket_count
-        return own & (centres[:, 0] > 0.0)
+        return _near(centres, crossbeam, count) & (centres[:, 0] > 0.0)
 
     return opened_at(sound, mesh, cut, behind)
 
@@ -85,7 +82,11 @@ def cut_height(mesh: CageMesh, crossbeam: int) -> float:
     places = mesh.points[list(doubled(mesh))]
     if not len(places):
         return 0.0
-    x, radial, tangential = in_pocket_frame(places, crossbeam - 0.5, mesh.pocket_count).T
-    own = np.abs(np.arctan2(tangential, radial)) < np.pi / mesh.pocket_count
-    r = np.hypot(radial, tangential)[own]
+    r = np.hypot(*places[_near(places, crossbeam, mesh.pocket_count), 1:].T)
     return float(np.ptp(r)) if len(r) else 0.0
+
+
+def _near(points: np.ndarray, crossbeam: int, count: int) -> np.ndarray:
+    """Which points (n, 3) are nearer to this crossbeam than to any other."""
+    _, radial, tangential = in_pocket_frame(points, crossbeam - 0.5, count).T
+    return np.abs(np.arctan2(tangential, radial)) < np.pi / count

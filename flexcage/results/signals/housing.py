@@ -11,6 +11,7 @@ High modes so give their static share. What the moving node does to these forces
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -23,7 +24,7 @@ from flexcage.results.metrics import sampling_rate
 from flexcage.results.registry import TIME
 from flexcage.results.signals.chain import passed, response
 from flexcage.results.signals.spec import Accelerometer
-from flexcage.system.seat import WHERE, Seated, seated, solved
+from flexcage.system.seat import DENSE, WHERE, Seated, seated, solved
 
 if TYPE_CHECKING:
     import xarray
@@ -31,8 +32,7 @@ if TYPE_CHECKING:
     from flexcage.modes.exchange.body import ReducedBody
     from flexcage.system.spec import Mount
 
-DENSE = 2000  # coordinates, above which the lowest modes are sought and the others are static
-LOWEST = 200  # modes of such a body
+LOWEST = 200  # modes that are sought of a body of more than DENSE coordinates; others are static
 _STATIC = 30.0  # times the highest frequency of a record, from which on a mode is static
 
 
@@ -46,21 +46,6 @@ class HousingPath:
     share: np.ndarray
     static: np.ndarray
     damping: float
-
-    @classmethod
-    def of(
-        cls, sensor: Accelerometer, mount: Mount, *, diameter: float, width: float,
-        ring: tuple[float, float, float],
-    ) -> HousingPath:  # fmt: skip
-        """``diameter`` and ``width`` [m] of the seat; ``ring``: mass [kg] and moments of inertia
-        [kg m^2] of the outer ring about x and across. InputError for a housing without a mass, and
-        for a node that is not there."""
-        housing = seated(mount, diameter=diameter, width=width)
-        mass = _mass(housing, sensor, ring)
-        row = housing.tie.T @ _row(housing.body, sensor)
-        frequency, shapes, whole = _modes(housing, mass)
-        share = (row @ shapes)[:, None] * (shapes.T @ housing.ring)
-        return cls(frequency, share, row @ whole - share.sum(axis=0), sensor.housing_damping)
 
     def gains(self, frequency: np.ndarray) -> np.ndarray:
         """Acceleration (m, 6) per force [m/s^2/N] and moment at frequencies (m,) [Hz]."""
@@ -76,6 +61,40 @@ class HousingPath:
         names = ("outer_force", "outer_moment")
         loads = np.concatenate([ds[name].transpose(TIME, "axis").values for name in names], axis=1)
         return passed(loads, sampling_rate(ds), self.gains, self.damping * self.frequency.min())
+
+
+@dataclass(frozen=True, eq=False)
+class SensedHousing:
+    """The housing of a run: the ``housing`` with the ring on its seat, and ``ring``: mass [kg] and
+    moments of inertia [kg m^2] of the outer ring about x and across."""
+
+    housing: Seated
+    ring: tuple[float, float, float]
+
+    @classmethod
+    def of(
+        cls, mount: Mount, *, diameter: float, width: float, ring: tuple[float, float, float]
+    ) -> SensedHousing:
+        """``diameter`` and ``width`` [m] of the seat."""
+        return cls(seated(mount, diameter=diameter, width=width), ring)
+
+    def check(self, sensor: Accelerometer) -> None:
+        """InputError for a housing without a mass, and for a node that is not there."""
+        _mass(self.housing, sensor, self.ring)
+        _row(self.housing.body, sensor)
+
+    def paths(self, sensors: Sequence[Accelerometer]) -> list[HousingPath]:
+        """To the nodes of these sensors, of one solution of the housing's modes; InputError as by
+        ``check``."""
+        rows = [self.housing.tie.T @ _row(self.housing.body, sensor) for sensor in sensors]
+        mass = _mass(self.housing, sensors[0], self.ring)
+        frequency, shapes, whole = _modes(self.housing, mass)
+        found = []
+        for sensor, row in zip(sensors, rows):
+            share = (row @ shapes)[:, None] * (shapes.T @ self.housing.ring)
+            static = row @ whole - share.sum(axis=0)
+            found.append(HousingPath(frequency, share, static, sensor.housing_damping))
+        return found
 
 
 def _mass(

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from functools import partial
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 from zlib import crc32
@@ -48,8 +47,7 @@ def signals_of(
             "another file (--sensors FILE; in Python, run.signals_of).",
             where="sensors",
         )
-    sources = {s.name: computed.get(s.name, partial(seen, ds, s, cage)) for s in sensors}
-    found = {s.name: _signal(ds, s, sources[s.name], settle) for s in sensors}
+    found = {s.name: _signal(ds, s, cage, settle, computed.get(s.name)) for s in sensors}
     several = len({(t[0], len(t), rate) for t, rate, _ in found.values()}) > 1
     variables, coords = {}, {}
     for sensor in sensors:
@@ -63,11 +61,12 @@ def signals_of(
 def _signal(
     ds: xarray.Dataset,
     sensor: Sensor,
-    source: np.ndarray | Callable[[], np.ndarray],
+    cage: Cage | None,
     settle: float,
+    computed: np.ndarray | None,
 ) -> tuple[np.ndarray, float, np.ndarray]:
-    """Instants (m,), rate [Hz] and values (m,) of a signal, of its values (n,) on the run's grid or
-    what gives them."""
+    """Instants (m,), rate [Hz] and values (m,) of a signal, of values (n,) ``computed`` on the
+    run's grid, or of what the sensor sees in the dataset."""
     grid = grid_of(sensor)
     t = ds[grid].values
     if len(t) < FEWEST:
@@ -79,7 +78,7 @@ def _signal(
         )
     rate = float(f"{(len(t) - 1) / (t[-1] - t[0]):.12g}")
     own = sensor.rate or rate
-    source = source() if callable(source) else source
+    source = seen(ds, sensor, cage) if computed is None else computed
     count = int((len(t) - 1) * ratio(rate, own)) + 1
     instants = t[0] + np.arange(count) / own
     if isinstance(sensor, Tacho):
