@@ -20,6 +20,7 @@ from flexcage.study.folder import SHARDS, Folder
 from flexcage.study.plan import Planned
 
 _BETWEEN = "-of-"
+_NOTHING = ("zarr.json", "settings.json")  # files that say nothing of any case
 _NAMED = 6  # missing shards that a sentence names
 _TIMED = "wall_"  # figures that another computer's run has otherwise
 
@@ -223,8 +224,7 @@ def unmerged_words(study: Path) -> str:
 def remove_empty(study: Path, shards: Iterable[Path]) -> None:
     """Remove the folders of shards in which nothing is left."""
     for path in shards:
-        left = (p for p in path.rglob("*") if p.is_file() and p.name not in ("zarr.json",))
-        if not any(left):
+        if not any(p.is_file() and p.name not in _NOTHING for p in path.rglob("*")):
             shutil.rmtree(path)
     folder = study / SHARDS
     if folder.is_dir() and not any(folder.iterdir()):

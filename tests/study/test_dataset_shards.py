@@ -137,6 +137,26 @@ def test_a_planned_data_set_is_not_planned_again(tmp_path, monkeypatch, capsys):
     assert "3 recordings, 3 signals" in capsys.readouterr().out
 
 
+@pytest.fixture
+def quick(tmp_path, monkeypatch):
+    """A study's file, and where its data set is made; its cases are finished at once."""
+    monkeypatch.setattr(desk, "do_case", fake_do_case)
+    return kept_nothing(tmp_path / "in"), tmp_path / "o"
+
+
+def test_a_shard_goes_on_that_a_merge_left_there(quick):
+    """A case that was killed, or failed, leaves its beginning."""
+    path, out = quick
+    build_shard(path, out, "1/2", workers=1)
+    begun = out / SHARDS / "1-of-2" / "study" / "cases" / "0123456789abcdef.part"
+    begun.mkdir()
+    (begun / "case.toml").write_text("")
+    assert [shard.index for shard in merge_dataset(out)[1]] == [2] and begun.is_dir()
+    for k in (1, 2):
+        assert build_shard(path, out, f"{k}/2", workers=1).open == 0
+    assert not merge_dataset(out)[1]
+
+
 def test_a_class_without_cases_is_refused_by_the_merge(tmp_path):
     failing = POINTS.replace('"load.radial" = "1500 N"', '"solver.max_steps" = 10')
     path = kept_nothing(tmp_path / "in", failing)

@@ -23,8 +23,6 @@ def take_recordings(folder: DatasetFolder, wanted: set[str], *, mixed: bool = Fa
             gather(Folder(folder.study.resolve()), [Folder(shard.study)], wanted, mixed=mixed)
             for record in shard.records():
                 _take(record, shard, folder)
-            if not any((shard.path / "records").iterdir()):
-                (shard.path / "settings.json").unlink(missing_ok=True)
     remove_empty(folder.path, paths)
 
 
