@@ -114,12 +114,16 @@ def compute_shard(
         compute(part, folder, replace(crew, alone=alone, elsewhere=elsewhere), progress)
 
 
-def state_of(part: Plan, folder: Folder, main: Folder, shard: Shard) -> ShardState:
-    """How far a shard is."""
-    names = [c.hash for c in part.cases]
-    done = sum(any(f.row(name) for f in (folder, main)) for name in names)
-    failed = sum(folder.failure(name) is not None for name in names)
-    return ShardState(shard, folder.path, done, failed, len(names) - done - failed)
+def state_of(
+    part: Plan, folder: Folder, main: Folder, shard: Shard, has: Callable[[str], bool] | None = None
+) -> ShardState:
+    """How far a shard is, by its own folder and the study's. A case whose hash a data set ``has``
+    is done as well."""
+    both, names = (folder, main), {c.hash for c in part.cases}
+    done = {n for n in names if any(f.row(n) for f in both) or (has is not None and has(n))}
+    failed = {n for n in names - done if any(f.failure(n) for f in both)}
+    left = len(names) - len(done) - len(failed)
+    return ShardState(shard, folder.path, len(done), len(failed), left)
 
 
 def merge_study(

@@ -157,6 +157,18 @@ def test_a_shard_goes_on_that_a_merge_left_there(quick):
     assert not merge_dataset(out)[1]
 
 
+def test_a_shard_whose_cases_are_recorded_is_not_open(quick):
+    path, out = quick
+    for k in (1, 2):
+        build_shard(path, out, f"{k}/2", workers=1)
+    shutil.rmtree(out / SHARDS / "1-of-2" / "study")
+    states = [build_shard(path, out, "1/2", workers=1)]
+    merge_dataset(out)
+    shutil.rmtree(out / "study")
+    states += [build_shard(path, out, f"{k}/2", workers=1) for k in (1, 2)]
+    assert [(s.done, s.failed, s.open) for s in states] == [(2, 0, 0), (2, 0, 0), (1, 0, 0)]
+
+
 def test_a_class_without_cases_is_refused_by_the_merge(tmp_path):
     failing = POINTS.replace('"load.radial" = "1500 N"', '"solver.max_steps" = 10')
     path = kept_nothing(tmp_path / "in", failing)

@@ -186,11 +186,20 @@ def test_more_shards_than_cases_and_failures(tmp_path, fake):
     shard.write_failure(name, Failure("RunFailed", "it stopped", final=True))
     results, missing = merge_study(out)
     assert results.count("failed") == 1 and missing == [Shard(2, 2)]
-    run_shard(study, out=out, shard="1/2", workers=1)
-    assert fake.count(name) == 1
+    state = run_shard(study, out=out, shard="1/2", workers=1)
+    assert fake.count(name) == 1 and (state.done, state.failed, state.open) == (2, 1, 0)
     run_shard(study, out=out, shard="1/2", workers=1, retry=True)
     assert fake.count(name) == 2
     assert merge_study(out)[0].count("failed") == 0
+
+
+def test_a_case_that_is_done_and_failed_counts_once(tmp_path, fake):
+    """A shard tried it again after another had finished it, or a merge was killed."""
+    study, out = short_study(LOADS, keep="figures"), tmp_path / "s"
+    state = run_shard(study, out=out, shard="1/2", workers=1)
+    Folder(state.folder).write_failure(fake[0], Failure("OSError", "a full disk", final=False))
+    state = run_shard(study, out=out, shard="1/2", workers=1)
+    assert (state.done, state.failed, state.open) == (3, 0, 0)
 
 
 def test_the_commands_say_what_to_do_next(tmp_path, fake, capsys):

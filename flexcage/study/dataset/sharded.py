@@ -71,7 +71,8 @@ def build_shard(
         own.prepare(kept)
         crew = Crew(workers, keeper=keeper, elsewhere=whole.has)
         compute_shard(part, Folder(own.study.resolve()), main, crew, progress)
-        return state_of(part, Folder(own.study.resolve()), main, number)
+        folder = Folder(own.study.resolve())
+        return state_of(part, folder, main, number, lambda n: own.has(n) or whole.has(n))
 
 
 def merge_dataset(
