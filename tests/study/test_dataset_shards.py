@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 
 import numpy as np
 import pyarrow.parquet as pq
@@ -24,6 +25,7 @@ from flexcage.study.dataset.keeping import RecordingKeeper
 from flexcage.study.dataset.recording import Recording
 from flexcage.study.dataset.sharded import build_shard, merge_dataset
 from flexcage.study.folder import SHARDS, Folder
+from flexcage.study.origin import Origin
 
 
 def kept_nothing(folder, axes=POINTS, **changes):
@@ -167,6 +169,21 @@ def test_a_shard_whose_cases_are_recorded_is_not_open(quick):
     shutil.rmtree(out / "study")
     states += [build_shard(path, out, f"{k}/2", workers=1) for k in (1, 2)]
     assert [(s.done, s.failed, s.open) for s in states] == [(2, 0, 0), (2, 0, 0), (1, 0, 0)]
+
+
+@pytest.mark.parametrize("merging", [True, False])
+def test_shards_of_other_physics_are_merged_if_asked(quick, capsys, merging):
+    path, out = quick
+    for k in (1, 2):
+        build_shard(path, out, f"{k}/2", workers=1)
+    shard = Folder(out / SHARDS / "1-of-2" / "study")
+    name = next(shard.finished())
+    row = replace(shard.row(name), origin=Origin("0.0.1", "f" * 16))
+    shard.write_row(shard.case(name), row)
+    command = ["dataset", "merge", str(out)] if merging else ["dataset", str(path), "-o", str(out)]
+    assert main(command) == 2 and "--other-version" in capsys.readouterr().err
+    assert main([*command, "--other-version"]) == 0
+    assert "3 recordings, 3 signals" in capsys.readouterr().out
 
 
 def test_a_class_without_cases_is_refused_by_the_merge(tmp_path):
