@@ -18,7 +18,7 @@ from test_dataset import EDGES, POINTS, study_in
 
 from flexcage.cli import main
 from flexcage.core.errors import InputError
-from flexcage.study import desk, sharded, work
+from flexcage.study import cluster, desk, sharded, work
 from flexcage.study.dataset.check import check_dataset
 from flexcage.study.dataset.folder import DatasetFolder
 from flexcage.study.dataset.keeping import RecordingKeeper
@@ -169,6 +169,13 @@ def test_a_shard_whose_cases_are_recorded_is_not_open(quick):
     shutil.rmtree(out / "study")
     states += [build_shard(path, out, f"{k}/2", workers=1) for k in (1, 2)]
     assert [(s.done, s.failed, s.open) for s in states] == [(2, 0, 0), (2, 0, 0), (1, 0, 0)]
+
+
+def test_a_package_that_data_sets_lack_is_named(quick, monkeypatch, capsys):
+    path, out = quick
+    monkeypatch.setattr(cluster, "find_spec", lambda name: None)
+    assert main(["dataset", str(path), "-o", str(out)]) == 1 and not out.exists()
+    assert "sources:  pip install '.[study]'" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("merging", [True, False])

@@ -12,6 +12,7 @@ from typing import Any
 from flexcage.core.binding import path_of
 from flexcage.core.errors import InputError
 from flexcage.core.output_folders import check_no_file
+from flexcage.study.cluster import require_packages
 from flexcage.study.dataset import card, labels
 from flexcage.study.dataset.folder import DatasetFolder, Settings
 from flexcage.study.dataset.gathering import take_recordings
@@ -46,8 +47,8 @@ def build_dataset(
     without sensors or without cases, for a class none of whose cases finished, for a folder of
     other files or settings and, unless ``other_version``, for cases of other physics.
     """
-    asked = asked_of(source, settings, overrides)
-    folder = DatasetFolder(out)
+    require_packages()
+    asked, folder = asked_of(source, settings, overrides), DatasetFolder(out)
     check_no_file(folder.path)
     with folder.held():
         kept = folder.prepare(asked.settings)
