@@ -145,6 +145,8 @@ def gather(
             for name in wanted.intersection(shard.failures()):
                 if into.row(name) is None:
                     os.replace(shard.reason(name), into.reason(name))
+                else:  # it was tried again elsewhere
+                    shard.reason(name).unlink()
         sync(into.cases)
 
 
@@ -209,15 +211,16 @@ def missing_words(shards: Sequence[Shard], command: str) -> str:
 
 
 def unmerged_words(study: Path) -> str:
-    """A sentence on what shards hold that is not merged; nothing without shards."""
+    """A sentence on what shards hold that is not merged; nothing for nothing."""
     shards = shards_in(study)
-    if not shards:
+    found = [{*folder.finished(), *folder.failures()} for folder in map(Folder, shards.values())]
+    if not any(found):
         return ""
-    done = sum(len(list(Folder(path).finished())) for path in shards.values())
+    cases, held = sum(map(len, found)), sum(map(bool, found))
     count = next(iter(shards)).count
     return (
-        f"Not merged: {done} cases in {len(shards)} of {count} shards; 'flexcage study merge "
-        f"{study}' gathers them."
+        f"Not merged: {cases} case{'s' * (cases > 1)} in {held} of {count} shards; 'flexcage study "
+        f"merge {study}' gathers them."
     )
 
 

@@ -23,7 +23,7 @@ from flexcage.study.origin import Origin
 from flexcage.study.plan import Planned, make_plan, points_of
 from flexcage.study.run import run_study
 from flexcage.study.sharded import merge_study, plan_study, run_shard
-from flexcage.study.shards import Shard, dealt, shard_of
+from flexcage.study.shards import Shard, dealt, shard_of, unmerged_words
 from flexcage.study.spec import Repeat
 
 LOADS = Grid("load.radial", ["500 N", "600 N", "700 N", "800 N", "900 N", "1 kN"])
@@ -200,6 +200,23 @@ def test_a_case_that_is_done_and_failed_counts_once(tmp_path, fake):
     Folder(state.folder).write_failure(fake[0], Failure("OSError", "a full disk", final=False))
     state = run_shard(study, out=out, shard="1/2", workers=1)
     assert (state.done, state.failed, state.open) == (3, 0, 0)
+    merge_study(out)
+    assert not (out / SHARDS).exists() and not any(Folder(out).failures())
+
+
+def test_nothing_is_said_of_a_shard_that_is_merged(tmp_path, fake):
+    study, out = short_study(LOADS, keep="figures"), tmp_path / "s"
+    shards = [Folder(run_shard(study, out=out, shard=f"{k}/2", workers=1).folder) for k in (1, 2)]
+    shutil.rmtree(shards[0].case(fake[0]))
+    shards[0].write_failure(fake[0], Failure("RunFailed", "it stopped", final=True))
+    for shard in shards:
+        shard.part("0123456789abcdef").mkdir()
+        (shard.part("0123456789abcdef") / "case.toml").write_text("")
+    assert "Not merged: 6 cases in 2 of 2 shards;" in unmerged_words(out)
+    merge_study(out)
+    assert (out / SHARDS).is_dir() and not unmerged_words(out)
+    run_shard(study, out=out, shard="1/2", workers=1, retry=True)
+    assert "Not merged: 1 case in 1 of 2 shards;" in unmerged_words(out)
 
 
 def test_the_commands_say_what_to_do_next(tmp_path, fake, capsys):
