@@ -178,6 +178,17 @@ def test_a_package_that_data_sets_lack_is_named(quick, monkeypatch, capsys):
     assert "sources:  pip install '.[study]'" in capsys.readouterr().err
 
 
+def test_a_merge_looks_once_at_what_is_merged(quick, monkeypatch):
+    """Not once a shard: with 1,000 of them all cases would be listed 1,000 times."""
+    path, out = quick
+    for k in (1, 2, 3):
+        build_shard(path, out, f"{k}/3", workers=1)
+    looked, finished = [], Folder.finished
+    monkeypatch.setattr(Folder, "finished", lambda self: looked.append(self) or finished(self))
+    assert not merge_dataset(out)[1]
+    assert [f.path for f in looked].count((out / "study").resolve()) == 1
+
+
 @pytest.mark.parametrize("merging", [True, False])
 def test_shards_of_other_physics_are_merged_if_asked(quick, capsys, merging):
     path, out = quick
