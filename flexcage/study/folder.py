@@ -36,6 +36,7 @@ from flexcage.core.reading import read_json
 from flexcage.core.writing import SPARE, check_own, replace, sync, written
 from flexcage.study.about import About, from_store, to_store
 from flexcage.study.case_row import CaseRow, Failure, row_from
+from flexcage.study.origin import this_one
 from flexcage.study.plan import Plan, Planned
 from flexcage.study.spec import FORMAT, Study, check_format, stored_study, stored_table
 
@@ -78,21 +79,39 @@ class Folder:
         another format, or one that needs files of the user's own that are not loaded."""
         return stored_study(self._text_file())
 
-    def _text_file(self) -> Path:
+    def _check_links(self) -> None:
         _own(*(self.path / name for name in _ITS_OWN))
+
+    def _text_file(self) -> Path:
+        self._check_links()
         check_study(self.path)
         return self.path / "study.toml"
 
     def about(self) -> tuple[About, tuple[Planned, ...]]:
         """What the folder says of its study, and the cases as they were planned last; InputError
         if they are not there. Nothing of the user's own is needed to read it."""
+        return self._planned()[1:]
+
+    def planned_by_this(self, study: Study) -> tuple[Planned, ...]:
+        """The cases if this very flexcage planned them, of this study; none otherwise, also of a
+        plan that cannot be read."""
+        self._check_links()
+        try:
+            stored, about, cases = self._planned()
+        except InputError:
+            return ()
+        own = stored.get("origin") == this_one().to_store()
+        return cases if own and about.text == study.to_toml() else ()
+
+    def _planned(self) -> tuple[dict[str, Any], About, tuple[Planned, ...]]:
+        """What plan.json holds, and what it says."""
         file = self._text_file()
         try:
             plan = read_json(self.path / "plan.json")
             if not seal_holds(plan):
                 raise ValueError("its seal is broken")
             check_format(plan.get("format", FORMAT), self.path / "plan.json")
-            return from_store(file, plan)
+            return plan, *from_store(file, plan)
         except InputError:
             raise
         except (OSError, TypeError, ValueError, KeyError, AttributeError, IndexError) as exc:
@@ -143,7 +162,7 @@ class Folder:
 
     def _check_place(self) -> None:
         check_no_file(self.path)
-        _own(*(self.path / name for name in _ITS_OWN))
+        self._check_links()
         if (self.path / "plan.json").is_file():  # a study.toml alone is the user's own
             if (self.path / "study.toml").is_file():
                 stored_table(self.path / "study.toml")  # refuses another format

@@ -9,7 +9,6 @@ from typing import Any
 
 from flexcage.core.binding import expect, path_of
 from flexcage.core.errors import InputError
-from flexcage.study.about import planned_by_this
 from flexcage.study.cluster import default_workers, require_packages
 from flexcage.study.desk import Crew
 from flexcage.study.folder import Folder
@@ -78,7 +77,7 @@ def run_shard(
 
 def begin_shard(study: Study, main: Folder, shard: Shard) -> Plan:
     """The shard's part of the plan, which the study's folder then has."""
-    stored = planned_by_this(study, main.path)
+    stored = main.planned_by_this(study)
     whole = Plan(study, stored) if stored else make_plan(study)
     if len(whole.cases) < shard.count:
         raise InputError(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
@@ -13,6 +14,7 @@ from study_cases import short_case, short_study, study_file
 
 from flexcage.cli import main
 from flexcage.core.errors import InputError
+from flexcage.core.hashing import sealed
 from flexcage.core.locks import held
 from flexcage.simulate import simulate
 from flexcage.study import desk, sharded
@@ -132,6 +134,34 @@ def test_shards_take_the_plan_that_is_there(tmp_path, fake, monkeypatch):
     assert [c.hash for c in Folder(tmp_path / "s").about()[1]] == [
         c.hash for c in make_plan(other).cases
     ]
+
+
+@pytest.mark.parametrize("linked", ["plan.json", "study.toml"])
+def test_no_plan_is_taken_through_a_link(tmp_path, fake, linked):
+    study, out = short_study(LOADS, keep="figures"), tmp_path / "s"
+    plan_study(study, out=out)
+    (out / linked).rename(tmp_path / linked)
+    (out / linked).symlink_to(tmp_path / linked)
+    with pytest.raises(InputError, match=f"{linked}' is a link to"):
+        run_shard(study, out=out, shard="1/2", workers=1)
+    assert not fake
+
+
+def test_a_plan_of_another_flexcage_or_a_damaged_one_is_made_anew(tmp_path, fake):
+    study, folder = short_study(LOADS, keep="figures"), Folder(tmp_path / "s")
+    assert folder.planned_by_this(study) == ()
+    plan_study(study, out=folder.path)
+    planned = folder.planned_by_this(study)
+    assert planned == folder.about()[1] and len(planned) == 6
+    file = folder.path / "plan.json"
+    stored = json.loads(file.read_text())
+    other = {**stored, "origin": {"version": "0.0.1", "physics": "f" * 16}}
+    del other["seal"]
+    for text in (json.dumps(sealed(other)), json.dumps(other), "[", "[]"):
+        file.write_text(text)
+        assert folder.planned_by_this(study) == ()
+    run_shard(study, out=folder.path, shard="1/2", workers=1)
+    assert folder.planned_by_this(study) == planned and len(fake) == 3
 
 
 def test_what_a_merge_refuses(tmp_path, fake):
