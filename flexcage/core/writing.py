@@ -11,7 +11,7 @@ from __future__ import annotations
 import os
 import stat
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -82,6 +82,14 @@ def folder_in(folder: Path, *names: str) -> Path:
             check_own(folder)
         folder.mkdir(parents=True, exist_ok=True)
     return folder
+
+
+def holds_others(folder: Path, known: Collection[str]) -> bool:
+    """Whether a folder holds anything but files and folders of these names, and what a kill left of
+    ``written``."""
+    return folder.is_dir() and any(
+        path.name not in known and not path.name.startswith(SPARE) for path in folder.iterdir()
+    )
 
 
 @contextmanager

@@ -33,7 +33,7 @@ from flexcage.core.hashing import seal_holds
 from flexcage.core.locks import LOCK, held
 from flexcage.core.output_folders import check_no_file, check_study
 from flexcage.core.reading import read_json
-from flexcage.core.writing import SPARE, check_own, replace, sync, written
+from flexcage.core.writing import check_own, holds_others, replace, sync, written
 from flexcage.study.about import About, from_store, to_store
 from flexcage.study.case_row import CaseRow, Failure, row_from
 from flexcage.study.origin import this_one
@@ -43,8 +43,7 @@ from flexcage.study.spec import FORMAT, Study, check_format, stored_study, store
 _ROW, _PART = "row.json", ".part"
 SHARDS = "shards"
 _ITS_OWN = ("study.toml", "plan.json", "cases", "failed", "cages", SHARDS)
-# of one killed before it had a plan
-_LEFT_OVER = (LOCK, "cases", "failed", SHARDS, "plan.json.new")
+_LEFT_OVER = (LOCK, "cases", "failed", SHARDS, "plan.json.new")  # killed before it had a plan
 _NOT_THERE = (KeyError, TypeError, AttributeError)  # a text that is not what was written
 _ZARR_GROUP = {"zarr_format": 3, "node_type": "group", "attributes": {}}
 
@@ -166,7 +165,7 @@ class Folder:
         if (self.path / "plan.json").is_file():  # a study.toml alone is the user's own
             if (self.path / "study.toml").is_file():
                 stored_table(self.path / "study.toml")  # refuses another format
-        elif self.path.is_dir() and any(map(_is_foreign, self.path.iterdir())):
+        elif holds_others(self.path, _LEFT_OVER):
             raise InputError(
                 f"'{self.path}' holds files and no study; name an empty or a new folder with -o.",
                 where="out",
@@ -265,11 +264,6 @@ class Folder:
     def running(self) -> set[str]:
         """Hashes of cases that are running, or were when their process ended."""
         return {p.name.removesuffix(_PART) for p in self.cases.glob(f"*{_PART}")}
-
-
-def _is_foreign(path: Path) -> bool:
-    """Whether no study left this in its folder before it had a plan."""
-    return path.name not in _LEFT_OVER and not path.name.startswith(SPARE)
 
 
 def _own(*paths: Path) -> Path:
