@@ -94,12 +94,13 @@ def holds_others(folder: Path, known: Collection[str]) -> bool:
 
 @contextmanager
 def written(path: Path) -> Iterator[Path]:
-    """A path to write to, of the same name, in a temporary folder beside: the file gets its place
-    once the context ends. Of an error nothing is left. OSError from the disk."""
+    """A path to write a file to, of the same name, in a temporary folder beside: it gets its place
+    once the context ends, with all in it on disk. Of an error nothing is left. OSError from the
+    disk."""
     with tempfile.TemporaryDirectory(dir=path.parent, prefix=SPARE) as spare:
         temporary = Path(spare) / path.name
         yield temporary
-        os.replace(temporary, path)
+        move_into_place(temporary, path)
 
 
 def write_text(path: Path, text: str) -> None:

@@ -98,6 +98,8 @@ def test_of_an_error_nothing_is_left_and_the_old_file_stays(run, monkeypatch):
     monkeypatch.setattr(os, "fsync", full)
     with pytest.raises(OSError, match="No space"):
         replace(run / "page.html", b"half")
+    with pytest.raises(OSError, match="No space"), written(run / "page.html") as path:
+        path.write_text("half")
     assert [p.name for p in run.iterdir()] == ["page.html"]
     assert (run / "page.html").read_text() == "old"
 
