@@ -15,6 +15,7 @@ from pathlib import Path
 
 from flexcage.core.errors import InputError
 from flexcage.core.writing import sync
+from flexcage.results.figures.effort import is_wall_time
 from flexcage.study.case_row import CaseRow
 from flexcage.study.folder import SHARDS, Folder
 from flexcage.study.plan import Planned
@@ -22,7 +23,6 @@ from flexcage.study.plan import Planned
 _BETWEEN = "-of-"
 _NOTHING = ("zarr.json", "settings.json")  # files that say nothing of any case
 _NAMED = 6  # missing shards that a sentence names
-_TIMED = "wall_"  # figures that another computer's run has otherwise
 
 
 @dataclass(frozen=True)
@@ -184,7 +184,7 @@ def _take(row: CaseRow, shard: Folder, into: Folder) -> None:
 
 
 def _figures(row: CaseRow) -> dict[str, object]:
-    return {k: f.value for k, f in row.figures.items() if not k.startswith(_TIMED)}
+    return {k: f.value for k, f in row.figures.items() if not is_wall_time(k)}
 
 
 def _take_cages(shard: Folder, into: Folder) -> None:
