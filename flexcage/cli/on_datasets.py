@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from flexcage.cli.parser import command, say, say_shard, whole_number
+from flexcage.cli.parser import command, say, say_shard, version_option, whole_number
 from flexcage.cli.settings import settings_of
 from flexcage.core.errors import InputError
 
@@ -38,13 +38,14 @@ def add_commands(commands: Any) -> None:
     )
     dataset.add_argument("--title", default="", metavar="TEXT", help="of its cards")
     dataset.add_argument("--license", metavar="NAME", help="of its cards (default: CC-BY-4.0)")
+    version_option(dataset)
 
 
 def dataset_command(args: argparse.Namespace) -> int:
     """flexcage dataset STUDY: make a data set, or go on with it; flexcage dataset check DIR, or
     merge DIR."""
     if args.what[0] in _OF_FOLDERS:
-        return _OF_FOLDERS[args.what[0]](_folder(args.what))
+        return _OF_FOLDERS[args.what[0]](_folder(args.what), args)
     planning = args.what[0] == PLAN
     if len(args.what) != 1 + planning:
         raise InputError(
@@ -68,7 +69,7 @@ def dataset_command(args: argparse.Namespace) -> int:
     how |= {"workers": args.workers, "progress": Progress}
     if args.shard:
         return say_shard(build_shard(source, out, args.shard, **how), f"dataset merge {out}")
-    return _say_all(build_dataset(source, out, **how))
+    return _say_all(build_dataset(source, out, other_version=args.other_version, **how))
 
 
 def _say_all(folder: Any, missing: str = "") -> int:
@@ -90,7 +91,7 @@ def _folder(what: list[str]) -> str:
     return what[1]
 
 
-def _check(folder: str) -> int:
+def _check(folder: str, _args: argparse.Namespace) -> int:
     from flexcage.study.dataset.check import check_dataset
 
     verdict = check_dataset(folder)
@@ -98,11 +99,11 @@ def _check(folder: str) -> int:
     return 1 if verdict.faults else 0
 
 
-def _merge(folder: str) -> int:
+def _merge(folder: str, args: argparse.Namespace) -> int:
     from flexcage.study.dataset.sharded import merge_dataset
     from flexcage.study.shards import missing_words
 
-    merged, lacking = merge_dataset(folder)
+    merged, lacking = merge_dataset(folder, other_version=args.other_version)
     return _say_all(merged, missing_words(lacking, f"flexcage dataset STUDY -o {folder}"))
 
 

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from flexcage.cli.parser import command, say, say_shard, whole_number
+from flexcage.cli.parser import command, say, say_shard, version_option, whole_number
 from flexcage.cli.settings import settings_of
 from flexcage.mesh.options import FINENESS
 
@@ -35,10 +35,10 @@ def add_commands(commands: Any) -> None:
         )
         where.add_argument("--scheduler", metavar="ADDRESS", help="a running Dask scheduler")
         parser.add_argument("--retry", action="store_true", help="try failed cases again")
-        _other_version(parser)
+        version_option(parser)
     merge = command(actions, "merge", study_merge_command, "gather the shards of a study")
     merge.add_argument("dir", metavar="DIR", help="study folder")
-    _other_version(merge)
+    version_option(merge)
     unknowns = command(actions, "map", study_map_command, "sample unknowns, and say what decides")
     unknowns.add_argument("map", metavar="MAP", help="map file (.toml)")
     unknowns.add_argument("-o", "--out", metavar="DIR", help="map folder (default: runs/NAME)")
@@ -49,7 +49,7 @@ def add_commands(commands: Any) -> None:
         "--points", type=_numbers, metavar="N,N", help="only these points of it, from 0"
     )
     _of_base_case(unknowns)
-    _other_version(unknowns)
+    version_option(unknowns)
     for name, function, text in (
         ("status", study_status_command, "count what is done, failed and open"),
         ("report", study_report_command, "print and write the table"),
@@ -81,13 +81,6 @@ def _numbers(text: str) -> list[int]:
     if not all(part.strip().isdecimal() for part in text.split(",")):
         raise argparse.ArgumentTypeError(f"'{text}' should be whole numbers, as 0,3,17")
     return [int(part) for part in text.split(",")]
-
-
-def _other_version(parser: Any) -> None:
-    parser.add_argument(
-        "--other-version", action="store_true",
-        help="add to cases that a flexcage of other physics computed",
-    )  # fmt: skip
 
 
 def study_run_command(args: argparse.Namespace) -> int:

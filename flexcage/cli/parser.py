@@ -101,6 +101,14 @@ def command(commands: Any, name: str, function: Any, text: str) -> argparse.Argu
     return parser
 
 
+def version_option(parser: argparse.ArgumentParser) -> None:
+    """Add what every command that goes on with the cases of a study understands."""
+    parser.add_argument(
+        "--other-version", action="store_true",
+        help="add to cases that a flexcage of other physics computed",
+    )  # fmt: skip
+
+
 def picture_options(parser: argparse.ArgumentParser) -> None:
     """Add what every command that draws a run understands."""
     parser.add_argument("--animate", action="store_true", help="make an animation as well")

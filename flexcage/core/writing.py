@@ -11,7 +11,7 @@ from __future__ import annotations
 import os
 import stat
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -84,14 +84,23 @@ def folder_in(folder: Path, *names: str) -> Path:
     return folder
 
 
+def holds_others(folder: Path, known: Collection[str]) -> bool:
+    """Whether a folder holds anything but files and folders of these names, and what a kill left of
+    ``written``."""
+    return folder.is_dir() and any(
+        path.name not in known and not path.name.startswith(SPARE) for path in folder.iterdir()
+    )
+
+
 @contextmanager
 def written(path: Path) -> Iterator[Path]:
-    """A path to write to, of the same name, in a temporary folder beside: the file gets its place
-    once the context ends. Of an error nothing is left. OSError from the disk."""
+    """A path to write a file to, of the same name, in a temporary folder beside: it gets its place
+    once the context ends, with all in it on disk. Of an error nothing is left. OSError from the
+    disk."""
     with tempfile.TemporaryDirectory(dir=path.parent, prefix=SPARE) as spare:
         temporary = Path(spare) / path.name
         yield temporary
-        os.replace(temporary, path)
+        move_into_place(temporary, path)
 
 
 def write_text(path: Path, text: str) -> None:

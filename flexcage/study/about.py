@@ -16,11 +16,10 @@ from typing import Any
 from flexcage.case import description
 from flexcage.core.binding import unit_at
 from flexcage.core.errors import InputError
-from flexcage.core.hashing import content_hash, seal_holds, sealed
-from flexcage.core.reading import read_json
+from flexcage.core.hashing import content_hash, sealed
 from flexcage.core.writing import check_name
 from flexcage.study.axes import Axis, Point
-from flexcage.study.origin import stored_origin, this_one
+from flexcage.study.origin import this_one
 from flexcage.study.plan import Plan, Planned
 from flexcage.study.spec import FORMAT, Repeat, Study, stored_axes, stored_repeat, stored_table
 
@@ -100,20 +99,6 @@ def from_store(file: Path, stored: Mapping[str, Any]) -> tuple[About, tuple[Plan
         check_name(name, f"The hash of a case in '{file.with_name('plan.json')}'")
     points = [Point(p["values"], p["labels"]) for p in stored["points"]]
     return about, tuple(Planned(n, points[n], k, h) for n, k, h in stored["cases"])
-
-
-def planned_by_this(study: Study, folder: Path) -> tuple[Planned, ...]:
-    """Cases of a study as its folder has them planned by this very flexcage; none otherwise, also
-    of another study, or of a plan that cannot be read."""
-    try:
-        stored = read_json(folder / "plan.json")
-        if not seal_holds(stored) or stored_origin(stored["origin"]) != this_one():
-            return ()
-        if stored["study"] != study.to_toml():
-            return ()
-        return from_store(folder / "study.toml", stored)[1]
-    except (OSError, TypeError, ValueError, KeyError, AttributeError, IndexError, InputError):
-        return ()
 
 
 def _edit(file: Path, text: str, planned: Mapping[str, Any]) -> str:

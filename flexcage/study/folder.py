@@ -33,17 +33,17 @@ from flexcage.core.hashing import seal_holds
 from flexcage.core.locks import LOCK, held
 from flexcage.core.output_folders import check_no_file, check_study
 from flexcage.core.reading import read_json
-from flexcage.core.writing import SPARE, check_own, replace, sync, written
+from flexcage.core.writing import check_own, holds_others, replace, sync, written
 from flexcage.study.about import About, from_store, to_store
 from flexcage.study.case_row import CaseRow, Failure, row_from
+from flexcage.study.origin import this_one
 from flexcage.study.plan import Plan, Planned
 from flexcage.study.spec import FORMAT, Study, check_format, stored_study, stored_table
 
 _ROW, _PART = "row.json", ".part"
 SHARDS = "shards"
 _ITS_OWN = ("study.toml", "plan.json", "cases", "failed", "cages", SHARDS)
-# of one killed before it had a plan
-_LEFT_OVER = (LOCK, "cases", "failed", SHARDS, "plan.json.new")
+_LEFT_OVER = (LOCK, "cases", "failed", SHARDS, "plan.json.new")  # killed before it had a plan
 _NOT_THERE = (KeyError, TypeError, AttributeError)  # a text that is not what was written
 _ZARR_GROUP = {"zarr_format": 3, "node_type": "group", "attributes": {}}
 
@@ -78,21 +78,39 @@ class Folder:
         another format, or one that needs files of the user's own that are not loaded."""
         return stored_study(self._text_file())
 
-    def _text_file(self) -> Path:
+    def _check_links(self) -> None:
         _own(*(self.path / name for name in _ITS_OWN))
+
+    def _text_file(self) -> Path:
+        self._check_links()
         check_study(self.path)
         return self.path / "study.toml"
 
     def about(self) -> tuple[About, tuple[Planned, ...]]:
         """What the folder says of its study, and the cases as they were planned last; InputError
         if they are not there. Nothing of the user's own is needed to read it."""
+        return self._planned()[1:]
+
+    def planned_by_this(self, study: Study) -> tuple[Planned, ...]:
+        """The cases if this very flexcage planned them, of this study; none otherwise, also of a
+        plan that cannot be read."""
+        self._check_links()
+        try:
+            stored, about, cases = self._planned()
+        except InputError:
+            return ()
+        own = stored.get("origin") == this_one().to_store()
+        return cases if own and about.text == study.to_toml() else ()
+
+    def _planned(self) -> tuple[dict[str, Any], About, tuple[Planned, ...]]:
+        """What plan.json holds, and what it says."""
         file = self._text_file()
         try:
             plan = read_json(self.path / "plan.json")
             if not seal_holds(plan):
                 raise ValueError("its seal is broken")
             check_format(plan.get("format", FORMAT), self.path / "plan.json")
-            return from_store(file, plan)
+            return plan, *from_store(file, plan)
         except InputError:
             raise
         except (OSError, TypeError, ValueError, KeyError, AttributeError, IndexError) as exc:
@@ -143,11 +161,11 @@ class Folder:
 
     def _check_place(self) -> None:
         check_no_file(self.path)
-        _own(*(self.path / name for name in _ITS_OWN))
+        self._check_links()
         if (self.path / "plan.json").is_file():  # a study.toml alone is the user's own
             if (self.path / "study.toml").is_file():
                 stored_table(self.path / "study.toml")  # refuses another format
-        elif self.path.is_dir() and any(map(_is_foreign, self.path.iterdir())):
+        elif holds_others(self.path, _LEFT_OVER):
             raise InputError(
                 f"'{self.path}' holds files and no study; name an empty or a new folder with -o.",
                 where="out",
@@ -246,11 +264,6 @@ class Folder:
     def running(self) -> set[str]:
         """Hashes of cases that are running, or were when their process ended."""
         return {p.name.removesuffix(_PART) for p in self.cases.glob(f"*{_PART}")}
-
-
-def _is_foreign(path: Path) -> bool:
-    """Whether no study left this in its folder before it had a plan."""
-    return path.name not in _LEFT_OVER and not path.name.startswith(SPARE)
 
 
 def _own(*paths: Path) -> Path:

@@ -28,11 +28,13 @@ from flexcage.core.writing import check_name
 from flexcage.core.writing import replace as replace_file
 from flexcage.study.about import key_of
 from flexcage.study.axes import Points
+from flexcage.study.cluster import require_packages
+from flexcage.study.desk import Crew
 from flexcage.study.folder import Folder
 from flexcage.study.origin import this_one
 from flexcage.study.plan import Plan, make_plan
 from flexcage.study.results import StudyResults
-from flexcage.study.run import check_physics, run_study
+from flexcage.study.run import check_physics, run_plan
 from flexcage.study.sensitivity import Index, indices
 from flexcage.study.spec import KEEP, Study, base_case, check_kind, read_file, use_extensions
 from flexcage.study.unknowns import DESIGNS, DUMMY, Unknown, check_unknowns, design_of
@@ -167,13 +169,12 @@ def run_map(
     model, whose folder is another.
     """
     out, study = path_of(out, "out"), spec.study(points)
-    plan = make_plan(study)
-    folder = Folder(out.resolve())
-    if not other_version:
-        check_physics(plan, folder, allowed=False)  # before map.json is another
+    require_packages()
+    plan, folder = make_plan(study), Folder(out.resolve())
+    check_physics(plan, folder, allowed=other_version)  # before map.json is another
     folder.prepare(plan)
     keep_map(spec, plan, folder)
-    run_study(study, out=out, workers=workers, other_version=other_version, progress=progress)
+    run_plan(plan, folder, Crew(workers), other_version=other_version, progress=progress)
     return MapResults(out)
 
 

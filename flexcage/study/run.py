@@ -57,6 +57,7 @@ def run_study(
     plan = make_plan(study)
     folder = Folder(path_of(out, "out").resolve())
     check_physics(plan, folder, allowed=other_version)
+    folder.prepare(plan)
     crew = Crew(workers, scheduler, retry=retry)
     return run_plan(plan, folder, crew, other_version=other_version, progress=progress)
 
@@ -69,8 +70,8 @@ def run_plan(
     other_version: bool = False,
     progress: Callable[..., Any] | None = None,
 ) -> StudyResults:
-    """Compute what the folder of a study and its shards lack of a plan, and gather its tables."""
-    folder.prepare(plan)
+    """Compute what the folder of a study and its shards lack of the plan that it was prepared for,
+    and gather its tables."""
     with folder.held():
         take_shards(plan.cases, folder, other_version=other_version)
         try:

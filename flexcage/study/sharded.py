@@ -9,7 +9,6 @@ from typing import Any
 
 from flexcage.core.binding import expect, path_of
 from flexcage.core.errors import InputError
-from flexcage.study.about import planned_by_this
 from flexcage.study.cluster import default_workers, require_packages
 from flexcage.study.desk import Crew
 from flexcage.study.folder import Folder
@@ -78,7 +77,7 @@ def run_shard(
 
 def begin_shard(study: Study, main: Folder, shard: Shard) -> Plan:
     """The shard's part of the plan, which the study's folder then has."""
-    stored = planned_by_this(study, main.path)
+    stored = main.planned_by_this(study)
     whole = Plan(study, stored) if stored else make_plan(study)
     if len(whole.cases) < shard.count:
         raise InputError(
@@ -114,12 +113,16 @@ def compute_shard(
         compute(part, folder, replace(crew, alone=alone, elsewhere=elsewhere), progress)
 
 
-def state_of(part: Plan, folder: Folder, main: Folder, shard: Shard) -> ShardState:
-    """How far a shard is."""
-    names = [c.hash for c in part.cases]
-    done = sum(any(f.row(name) for f in (folder, main)) for name in names)
-    failed = sum(folder.failure(name) is not None for name in names)
-    return ShardState(shard, folder.path, done, failed, len(names) - done - failed)
+def state_of(
+    part: Plan, folder: Folder, main: Folder, shard: Shard, has: Callable[[str], bool] | None = None
+) -> ShardState:
+    """How far a shard is, by its own folder and the study's. A case whose hash a data set ``has``
+    is done as well."""
+    both, names = (folder, main), {c.hash for c in part.cases}
+    done = {n for n in names if any(f.row(n) for f in both) or (has is not None and has(n))}
+    failed = {n for n in names - done if any(f.failure(n) for f in both)}
+    left = len(names) - len(done) - len(failed)
+    return ShardState(shard, folder.path, len(done), len(failed), left)
 
 
 def merge_study(

@@ -15,13 +15,14 @@ from pathlib import Path
 
 from flexcage.core.errors import InputError
 from flexcage.core.writing import sync
+from flexcage.results.figures.effort import is_wall_time
 from flexcage.study.case_row import CaseRow
 from flexcage.study.folder import SHARDS, Folder
 from flexcage.study.plan import Planned
 
 _BETWEEN = "-of-"
+_NOTHING = ("zarr.json", "settings.json")  # files that say nothing of any case
 _NAMED = 6  # missing shards that a sentence names
-_TIMED = "wall_"  # figures that another computer's run has otherwise
 
 
 @dataclass(frozen=True)
@@ -144,6 +145,8 @@ def gather(
             for name in wanted.intersection(shard.failures()):
                 if into.row(name) is None:
                     os.replace(shard.reason(name), into.reason(name))
+                else:  # it was tried again elsewhere
+                    shard.reason(name).unlink()
         sync(into.cases)
 
 
@@ -181,7 +184,7 @@ def _take(row: CaseRow, shard: Folder, into: Folder) -> None:
 
 
 def _figures(row: CaseRow) -> dict[str, object]:
-    return {k: f.value for k, f in row.figures.items() if not k.startswith(_TIMED)}
+    return {k: f.value for k, f in row.figures.items() if not is_wall_time(k)}
 
 
 def _take_cages(shard: Folder, into: Folder) -> None:
@@ -208,23 +211,23 @@ def missing_words(shards: Sequence[Shard], command: str) -> str:
 
 
 def unmerged_words(study: Path) -> str:
-    """A sentence on what shards hold that is not merged; nothing without shards."""
+    """A sentence on what shards hold that is not merged; nothing for nothing."""
     shards = shards_in(study)
-    if not shards:
+    found = [{*folder.finished(), *folder.failures()} for folder in map(Folder, shards.values())]
+    if not any(found):
         return ""
-    done = sum(len(list(Folder(path).finished())) for path in shards.values())
+    cases, held = sum(map(len, found)), sum(map(bool, found))
     count = next(iter(shards)).count
     return (
-        f"Not merged: {done} cases in {len(shards)} of {count} shards; 'flexcage study merge "
-        f"{study}' gathers them."
+        f"Not merged: {cases} case{'s' * (cases > 1)} in {held} of {count} shards; 'flexcage study "
+        f"merge {study}' gathers them."
     )
 
 
 def remove_empty(study: Path, shards: Iterable[Path]) -> None:
     """Remove the folders of shards in which nothing is left."""
     for path in shards:
-        left = (p for p in path.rglob("*") if p.is_file() and p.name not in ("zarr.json",))
-        if not any(left):
+        if not any(p.is_file() and p.name not in _NOTHING for p in path.rglob("*")):
             shutil.rmtree(path)
     folder = study / SHARDS
     if folder.is_dir() and not any(folder.iterdir()):

@@ -9,9 +9,11 @@ import pytest
 from flexcage.core.errors import InputError
 from flexcage.core.locks import LOCK, check_free, held
 from flexcage.core.writing import (
+    SPARE,
     check_name,
     check_own,
     folder_in,
+    holds_others,
     replace,
     unusable,
     write_text,
@@ -96,8 +98,17 @@ def test_of_an_error_nothing_is_left_and_the_old_file_stays(run, monkeypatch):
     monkeypatch.setattr(os, "fsync", full)
     with pytest.raises(OSError, match="No space"):
         replace(run / "page.html", b"half")
+    with pytest.raises(OSError, match="No space"), written(run / "page.html") as path:
+        path.write_text("half")
     assert [p.name for p in run.iterdir()] == ["page.html"]
     assert (run / "page.html").read_text() == "old"
+
+
+def test_a_folder_holds_others_than_those_that_are_known(run):
+    assert not holds_others(run, ()) and not holds_others(run / "nothing here", ())
+    (run / f"{SPARE}abc").mkdir()
+    (run / LOCK).write_text("")
+    assert not holds_others(run, (LOCK,)) and holds_others(run, ())
 
 
 def test_links_and_devices_inside_a_folder_are_told(run, victim):

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 
 import numpy as np
 import pyarrow.parquet as pq
@@ -17,13 +18,14 @@ from test_dataset import EDGES, POINTS, study_in
 
 from flexcage.cli import main
 from flexcage.core.errors import InputError
-from flexcage.study import desk, sharded, work
+from flexcage.study import cluster, desk, sharded, work
 from flexcage.study.dataset.check import check_dataset
 from flexcage.study.dataset.folder import DatasetFolder
 from flexcage.study.dataset.keeping import RecordingKeeper
 from flexcage.study.dataset.recording import Recording
 from flexcage.study.dataset.sharded import build_shard, merge_dataset
 from flexcage.study.folder import SHARDS, Folder
+from flexcage.study.origin import Origin
 
 
 def kept_nothing(folder, axes=POINTS, **changes):
@@ -134,6 +136,71 @@ def test_a_planned_data_set_is_not_planned_again(tmp_path, monkeypatch, capsys):
         one = ["dataset", str(path), "-o", str(out), "--workers", "1", "--shard", f"{k}/2"]
         assert main(one) == 0
     assert main(["dataset", "merge", str(out)]) == 0
+    assert "3 recordings, 3 signals" in capsys.readouterr().out
+
+
+@pytest.fixture
+def quick(tmp_path, monkeypatch):
+    """A study's file, and where its data set is made; its cases are finished at once."""
+    monkeypatch.setattr(desk, "do_case", fake_do_case)
+    return kept_nothing(tmp_path / "in"), tmp_path / "o"
+
+
+def test_a_shard_goes_on_that_a_merge_left_there(quick):
+    """A case that was killed, or failed, leaves its beginning."""
+    path, out = quick
+    build_shard(path, out, "1/2", workers=1)
+    begun = out / SHARDS / "1-of-2" / "study" / "cases" / "0123456789abcdef.part"
+    begun.mkdir()
+    (begun / "case.toml").write_text("")
+    assert [shard.index for shard in merge_dataset(out)[1]] == [2] and begun.is_dir()
+    for k in (1, 2):
+        assert build_shard(path, out, f"{k}/2", workers=1).open == 0
+    assert not merge_dataset(out)[1]
+
+
+def test_a_shard_whose_cases_are_recorded_is_not_open(quick):
+    path, out = quick
+    for k in (1, 2):
+        build_shard(path, out, f"{k}/2", workers=1)
+    shutil.rmtree(out / SHARDS / "1-of-2" / "study")
+    states = [build_shard(path, out, "1/2", workers=1)]
+    merge_dataset(out)
+    shutil.rmtree(out / "study")
+    states += [build_shard(path, out, f"{k}/2", workers=1) for k in (1, 2)]
+    assert [(s.done, s.failed, s.open) for s in states] == [(2, 0, 0), (2, 0, 0), (1, 0, 0)]
+
+
+def test_a_package_that_data_sets_lack_is_named(quick, monkeypatch, capsys):
+    path, out = quick
+    monkeypatch.setattr(cluster, "find_spec", lambda name: None)
+    assert main(["dataset", str(path), "-o", str(out)]) == 1 and not out.exists()
+    assert "sources:  pip install '.[study]'" in capsys.readouterr().err
+
+
+def test_a_merge_looks_once_at_what_is_merged(quick, monkeypatch):
+    """Not once a shard: with 1,000 of them all cases would be listed 1,000 times."""
+    path, out = quick
+    for k in (1, 2, 3):
+        build_shard(path, out, f"{k}/3", workers=1)
+    looked, finished = [], Folder.finished
+    monkeypatch.setattr(Folder, "finished", lambda self: looked.append(self) or finished(self))
+    assert not merge_dataset(out)[1]
+    assert [f.path for f in looked].count((out / "study").resolve()) == 1
+
+
+@pytest.mark.parametrize("merging", [True, False])
+def test_shards_of_other_physics_are_merged_if_asked(quick, capsys, merging):
+    path, out = quick
+    for k in (1, 2):
+        build_shard(path, out, f"{k}/2", workers=1)
+    shard = Folder(out / SHARDS / "1-of-2" / "study")
+    name = next(shard.finished())
+    row = replace(shard.row(name), origin=Origin("0.0.1", "f" * 16))
+    shard.write_row(shard.case(name), row)
+    command = ["dataset", "merge", str(out)] if merging else ["dataset", str(path), "-o", str(out)]
+    assert main(command) == 2 and "--other-version" in capsys.readouterr().err
+    assert main([*command, "--other-version"]) == 0
     assert "3 recordings, 3 signals" in capsys.readouterr().out
 
 

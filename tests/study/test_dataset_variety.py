@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from study_cases import short_case
+from study_cases import study_file
 
 from flexcage.case import load_case
 from flexcage.study.dataset import labels
@@ -84,12 +84,8 @@ count = 2
 
 @pytest.fixture(scope="module")
 def table(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("variety")
-    (folder / "case.toml").write_text(short_case().to_toml())
-    (folder / "study.toml").write_text(
-        'name = "s"\ncase = "case.toml"\noutputs = ["cage_speed"]\nkeep = "runs"\n' + AXES
-    )
-    plan = make_plan(load_study(folder / "study.toml"))
+    path = study_file(tmp_path_factory.mktemp("variety"), 'keep = "runs"', AXES)
+    plan = make_plan(load_study(path))
     return [(p.point.labels["fault"], p.repetition, plan.case(p)) for p in plan.cases]
 
 

@@ -168,10 +168,10 @@ def small_map():
 def mapped(tmp_path, monkeypatch):
     """A finished map of two points."""
 
-    def run(study, *, out, **_):
-        write_rows(Folder(out), make_plan(study))
+    def run(plan, folder, *_, **__):
+        write_rows(folder, plan)
 
-    monkeypatch.setattr(maps, "run_study", run)
+    monkeypatch.setattr(maps, "run_plan", run)
     return maps.run_map(small_map(), out=tmp_path / "map")
 
 

@@ -112,15 +112,17 @@ def test_the_command_study_run_asks_as_well(tmp_path, capsys, computed):
     assert cli.main([*command, "--other-version"]) == 0 and computed == [1]
 
 
-def test_a_map_asks_as_well(tmp_path, computed):
+def test_a_map_asks_as_well(tmp_path, computed, monkeypatch, caplog):
     load = Unknown(name="load", reason="r", paths={"load.radial": 1.0}, range=("500 N", "2 kN"))
     spec = Map(case=short_case(), unknowns=(load,), outputs=("cage_speed",), count=2)
     begun(tmp_path / "m", OTHER, study=spec.study())
     with pytest.raises(InputError, match="1 of the 1 finished cases.*other_version=True"):
         maps.run_map(spec, out=tmp_path / "m")
     assert not (tmp_path / "m/map.json").exists()
+    monkeypatch.setattr(study_run, "make_plan", lambda study: pytest.fail("planned again"))
     results = maps.run_map(spec, out=tmp_path / "m", other_version=True)
     assert any("Different versions" in text for text in results.study.cautions())
+    assert caplog.text.count("would mix different physics") == 1
 
 
 def test_a_convergence_study_asks_as_well(tmp_path, monkeypatch):

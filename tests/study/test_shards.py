@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
@@ -13,6 +14,7 @@ from study_cases import short_case, short_study, study_file
 
 from flexcage.cli import main
 from flexcage.core.errors import InputError
+from flexcage.core.hashing import sealed
 from flexcage.core.locks import held
 from flexcage.simulate import simulate
 from flexcage.study import desk, sharded
@@ -23,7 +25,7 @@ from flexcage.study.origin import Origin
 from flexcage.study.plan import Planned, make_plan, points_of
 from flexcage.study.run import run_study
 from flexcage.study.sharded import merge_study, plan_study, run_shard
-from flexcage.study.shards import Shard, dealt, shard_of
+from flexcage.study.shards import Shard, dealt, shard_of, unmerged_words
 from flexcage.study.spec import Repeat
 
 LOADS = Grid("load.radial", ["500 N", "600 N", "700 N", "800 N", "900 N", "1 kN"])
@@ -134,6 +136,34 @@ def test_shards_take_the_plan_that_is_there(tmp_path, fake, monkeypatch):
     ]
 
 
+@pytest.mark.parametrize("linked", ["plan.json", "study.toml"])
+def test_no_plan_is_taken_through_a_link(tmp_path, fake, linked):
+    study, out = short_study(LOADS, keep="figures"), tmp_path / "s"
+    plan_study(study, out=out)
+    (out / linked).rename(tmp_path / linked)
+    (out / linked).symlink_to(tmp_path / linked)
+    with pytest.raises(InputError, match=f"{linked}' is a link to"):
+        run_shard(study, out=out, shard="1/2", workers=1)
+    assert not fake
+
+
+def test_a_plan_of_another_flexcage_or_a_damaged_one_is_made_anew(tmp_path, fake):
+    study, folder = short_study(LOADS, keep="figures"), Folder(tmp_path / "s")
+    assert folder.planned_by_this(study) == ()
+    plan_study(study, out=folder.path)
+    planned = folder.planned_by_this(study)
+    assert planned == folder.about()[1] and len(planned) == 6
+    file = folder.path / "plan.json"
+    stored = json.loads(file.read_text())
+    other = {**stored, "origin": {"version": "0.0.1", "physics": "f" * 16}}
+    del other["seal"]
+    for text in (json.dumps(sealed(other)), json.dumps(other), "[", "[]"):
+        file.write_text(text)
+        assert folder.planned_by_this(study) == ()
+    run_shard(study, out=folder.path, shard="1/2", workers=1)
+    assert folder.planned_by_this(study) == planned and len(fake) == 3
+
+
 def test_what_a_merge_refuses(tmp_path, fake):
     study, out = short_study(LOADS, keep="figures"), tmp_path / "s"
     for k in (1, 2):
@@ -186,11 +216,37 @@ def test_more_shards_than_cases_and_failures(tmp_path, fake):
     shard.write_failure(name, Failure("RunFailed", "it stopped", final=True))
     results, missing = merge_study(out)
     assert results.count("failed") == 1 and missing == [Shard(2, 2)]
-    run_shard(study, out=out, shard="1/2", workers=1)
-    assert fake.count(name) == 1
+    state = run_shard(study, out=out, shard="1/2", workers=1)
+    assert fake.count(name) == 1 and (state.done, state.failed, state.open) == (2, 1, 0)
     run_shard(study, out=out, shard="1/2", workers=1, retry=True)
     assert fake.count(name) == 2
     assert merge_study(out)[0].count("failed") == 0
+
+
+def test_a_case_that_is_done_and_failed_counts_once(tmp_path, fake):
+    """A shard tried it again after another had finished it, or a merge was killed."""
+    study, out = short_study(LOADS, keep="figures"), tmp_path / "s"
+    state = run_shard(study, out=out, shard="1/2", workers=1)
+    Folder(state.folder).write_failure(fake[0], Failure("OSError", "a full disk", final=False))
+    state = run_shard(study, out=out, shard="1/2", workers=1)
+    assert (state.done, state.failed, state.open) == (3, 0, 0)
+    merge_study(out)
+    assert not (out / SHARDS).exists() and not any(Folder(out).failures())
+
+
+def test_nothing_is_said_of_a_shard_that_is_merged(tmp_path, fake):
+    study, out = short_study(LOADS, keep="figures"), tmp_path / "s"
+    shards = [Folder(run_shard(study, out=out, shard=f"{k}/2", workers=1).folder) for k in (1, 2)]
+    shutil.rmtree(shards[0].case(fake[0]))
+    shards[0].write_failure(fake[0], Failure("RunFailed", "it stopped", final=True))
+    for shard in shards:
+        shard.part("0123456789abcdef").mkdir()
+        (shard.part("0123456789abcdef") / "case.toml").write_text("")
+    assert "Not merged: 6 cases in 2 of 2 shards;" in unmerged_words(out)
+    merge_study(out)
+    assert (out / SHARDS).is_dir() and not unmerged_words(out)
+    run_shard(study, out=out, shard="1/2", workers=1, retry=True)
+    assert "Not merged: 1 case in 1 of 2 shards;" in unmerged_words(out)
 
 
 def test_the_commands_say_what_to_do_next(tmp_path, fake, capsys):

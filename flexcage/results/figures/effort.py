@@ -54,6 +54,11 @@ def add_wall(table: FigureTable[Stages], stage: str, *marks: Mark) -> None:
     table.add(f"wall_{stage}", title, "s", "of this stage", *marks, take=partial(_wall, stage))
 
 
+def is_wall_time(name: str) -> bool:
+    """Whether a figure is a wall time, which another computer's run has otherwise."""
+    return name.startswith("wall_")
+
+
 TIMES = FigureTable[Stages]("Wall time")
 for _stage in ("mesh", "modes", "kernels", "start"):
     add_wall(TIMES, _stage)

@@ -12,6 +12,7 @@ from typing import Any
 from flexcage.core.binding import path_of
 from flexcage.core.errors import InputError
 from flexcage.core.output_folders import check_no_file
+from flexcage.study.cluster import require_packages
 from flexcage.study.dataset import card, labels
 from flexcage.study.dataset.folder import DatasetFolder, Settings
 from flexcage.study.dataset.gathering import take_recordings
@@ -34,27 +35,29 @@ def build_dataset(
     settings: Settings | None = None,
     overrides: dict[str, Any] | None = None,
     workers: int | None = None,
+    other_version: bool = False,
     progress: Callable[..., Any] | None = None,
 ) -> DatasetFolder:
     """Make or go on with the data set in the folder ``out`` of a study or a map, by its file.
 
     Each case is recorded by its worker as soon as it is finished; its figures stay in
     ``out``/study, and its run as well where the file says ``keep = "runs"``. Recordings that are
-    there are kept, also those of other studies, and not computed again. Raises InputError for a
-    study without sensors or without cases, for a class none of whose cases finished, and for a
-    folder of other files or settings.
+    there are kept, also those of other studies, and not computed again. ``workers``,
+    ``other_version`` and ``progress`` are those of ``run_study``. Raises InputError for a study
+    without sensors or without cases, for a class none of whose cases finished, for a folder of
+    other files or settings and, unless ``other_version``, for cases of other physics.
     """
-    asked = asked_of(source, settings, overrides)
-    folder = DatasetFolder(out)
+    require_packages()
+    asked, folder = asked_of(source, settings, overrides), DatasetFolder(out)
     check_no_file(folder.path)
     with folder.held():
         kept = folder.prepare(asked.settings)
         plan, study = make_plan(asked.study), Folder(folder.study.resolve())
-        check_physics(plan, study, allowed=False)
+        check_physics(plan, study, allowed=other_version)
         study.prepare(plan)
         if asked.map is not None:
             keep_map(asked.map, plan, study)
-        take_recordings(folder, {c.hash for c in plan.cases})
+        take_recordings(folder, {c.hash for c in plan.cases}, mixed=other_version)
         keeper = keeper_of(folder.path, folder.name, kept)
         results = run_plan(plan, study, Crew(workers, keeper=keeper), progress=progress)
         check_classes(results, folder)

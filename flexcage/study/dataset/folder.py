@@ -31,7 +31,7 @@ from flexcage.core.hashing import seal_holds, sealed
 from flexcage.core.locks import LOCK, held
 from flexcage.core.output_folders import check_no_file
 from flexcage.core.reading import read_json, table_of
-from flexcage.core.writing import SPARE, check_own, replace, written
+from flexcage.core.writing import check_own, holds_others, replace, written
 from flexcage.study.dataset.recording import Recording, digest
 from flexcage.study.folder import SHARDS
 
@@ -86,9 +86,7 @@ class DatasetFolder:
                     where="dataset",
                 )
             return stored
-        if self.path.is_dir() and any(
-            p.name not in _BEGUN and not p.name.startswith(SPARE) for p in self.path.iterdir()
-        ):
+        if holds_others(self.path, _BEGUN):
             raise InputError(
                 f"'{self.path}' holds files and no data set; name an empty or a new folder.",
                 where="out", value=str(self.path),

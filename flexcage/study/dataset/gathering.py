@@ -17,14 +17,15 @@ def take_recordings(folder: DatasetFolder, wanted: set[str], *, mixed: bool = Fa
     Raises InputError as ``shards.gather``, and for a recording that is there with other content.
     """
     paths = list(shards_in(folder.path).values())
+    if not paths:
+        return
     shards = [DatasetFolder(path) for path in paths]
+    studies = [Folder(shard.study) for shard in shards]
+    gather(Folder(folder.study.resolve()), studies, wanted, mixed=mixed)
     for shard in shards:
         with shard.held():
-            gather(Folder(folder.study.resolve()), [Folder(shard.study)], wanted, mixed=mixed)
             for record in shard.records():
                 _take(record, shard, folder)
-            if not any((shard.path / "records").iterdir()):
-                (shard.path / "settings.json").unlink(missing_ok=True)
     remove_empty(folder.path, paths)
 
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from flexcage.case import Case
 from flexcage.results.features import cage_motion_features, orbit_class
+from flexcage.results.figures.effort import is_wall_time
 from flexcage.results.frequencies import bearing_frequencies
 from flexcage.results.metrics import pocket_peaks, settled
 from flexcage.study.case_row import CaseRow
@@ -133,8 +134,7 @@ def _truth(
         found["motion_class"] = "not known" if orbit is None else orbit.kind
     for name, figure in row.figures.items():
         number = isinstance(figure.value, (int, float)) and not isinstance(figure.value, bool)
-        timed = name.startswith("wall_")  # another computer's would differ
-        if number and not timed and isfinite(float(figure.value or 0.0)):
+        if number and not is_wall_time(name) and isfinite(float(figure.value or 0.0)):
             found[f"figure.{name}"] = float(figure.value or 0.0)
     return found
 

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from flexcage.core.output_folders import check_no_file
 from flexcage.study.dataset.build import asked_of, check_classes, keeper_of, write_index
 from flexcage.study.dataset.folder import DatasetFolder, Settings
 from flexcage.study.dataset.gathering import take_recordings
@@ -61,7 +60,6 @@ def build_shard(
     """
     asked, number = asked_of(source, settings, overrides), shard_of(shard)
     whole = DatasetFolder(out)
-    check_no_file(whole.path)
     kept = whole.prepare(asked.settings)
     main = Folder(whole.study.resolve())
     part = begin_shard(asked.study, main, number)
@@ -71,7 +69,8 @@ def build_shard(
         own.prepare(kept)
         crew = Crew(workers, keeper=keeper, elsewhere=whole.has)
         compute_shard(part, Folder(own.study.resolve()), main, crew, progress)
-        return state_of(part, Folder(own.study.resolve()), main, number)
+        folder = Folder(own.study.resolve())
+        return state_of(part, folder, main, number, lambda n: own.has(n) or whole.has(n))
 
 
 def merge_dataset(
