@@ -53,6 +53,7 @@ class Family:
     rings: Callable[[], SectionsOf] | None = None  # sections of rings that bend
     bending: Callable[[], BendingMotion] | None = None  # motion between rings that bend
     losses: Callable[[], LossesOf] | None = None  # of static solutions
+    rows_of: str = ""  # name of the family whose elements its rows have, of several rows
     other_designs: Mapping[str, str] = field(default_factory=dict)
 
     @property

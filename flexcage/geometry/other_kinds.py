@@ -11,6 +11,16 @@ _HAS = (
     "flexcage has none: it has deep groove and angular contact ball bearings, and cylindrical "
     "roller bearings, single-row"
 )
+_AS_TYPE = (
+    "its internal geometry is not inferred: give that in a case as bearing.type '{}', for "
+    "'flexcage static'"
+)
+# kinds of which flexcage has a type, but does not know what is inside
+_TYPES = {
+    "a self-aligning ball bearing": "self_aligning_ball",
+    "a double row angular contact ball bearing": "double_row_angular_contact_ball",
+    "a double row cylindrical roller bearing": "double_row_cylindrical_roller",
+}
 # ISO 15 and makers' catalogues (SKF, Schaeffler, NSK): first digits and letters of designations
 # without spaces, dashes and strokes, and what such a bearing is
 _DESIGNATIONS = {
@@ -41,8 +51,7 @@ _NAMES = {
     r"taper.*": "tapered roller bearings",
     r".*thrust.*": "thrust bearings",
     r"(spherical|barrel).*": "spherical roller bearings",
-    r"self.?align.*": "self-aligning bearings",
-    r"(double|two|multi|four).?row.*|duplex.*": "bearings of several rows",
+    r"(double|two|multi|four).?row.*|duplex.*": "such bearings of several rows",
     r"(four|three).?point.*|qj": "four-point contact bearings",
     r"needle.*": "needle roller bearings",
     r"(cross|toroid|carb|insert|slewing|linear|plain|journal|magnetic|slide).*": "such bearings",
@@ -91,7 +100,7 @@ def kind_of(designation: str) -> str:
     two_rows = _FOUR_DIGITS.fullmatch(designation.strip())
     for pattern, kind in _DESIGNATIONS.items():
         if re.fullmatch(pattern, designation.strip()[:4] if two_rows else name):
-            return f"is {kind}; {_HAS}"
+            return f"is {kind}; {_AS_TYPE.format(_TYPES[kind]) if kind in _TYPES else _HAS}"
     return ""
 
 

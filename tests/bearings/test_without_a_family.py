@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from flexcage.core.wings import FAMILIES as WING
+
 ROOT = Path(__file__).parents[2]
 #: Rooms in which bearings touch and move; the others' tests take long, or know no family.
 ROOMS = ("contacts", "solve", "system")
@@ -48,8 +50,10 @@ def without(request, tmp_path_factory):
     copy = tmp_path_factory.mktemp("copy")
     own = shutil.ignore_patterns("__pycache__")
     shutil.copytree(ROOT / "flexcage", copy / "flexcage", ignore=own)
-    shutil.rmtree(copy / "flexcage/bearings" / request.param)
-    _edit(copy / "flexcage/bearings/specs.py", rf"from flexcage\.bearings\.{request.param} .*\n")
+    built_on_it = [family.name for family in WING.values() if family.rows_of == request.param]
+    for name in (request.param, *built_on_it):
+        shutil.rmtree(copy / "flexcage/bearings" / name)
+        _edit(copy / "flexcage/bearings/specs.py", rf"from flexcage\.bearings\.{name} .*\n")
     left = FAMILIES[request.param]
     for answer in (copy / "flexcage/verification/cases").glob(left.answers):
         answer.unlink()

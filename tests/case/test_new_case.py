@@ -345,7 +345,7 @@ def test_makers_suffixes_are_read_and_each_is_explained(designation, same, notes
 def test_bearings_of_other_kinds_are_declined_by_kind(designation, kind):
     with pytest.raises(InputError) as caught:
         catalogue.find(designation)
-    assert str(caught.value).startswith(f"'{designation}' is {kind}; flexcage has ")
+    assert str(caught.value).startswith(f"'{designation}' is {kind}; ")
 
 
 @pytest.mark.parametrize("designation", sorted(catalogue.designations()))
