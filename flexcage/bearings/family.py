@@ -54,6 +54,7 @@ class Family:
     bending: Callable[[], BendingMotion] | None = None  # motion between rings that bend
     losses: Callable[[], LossesOf] | None = None  # of static solutions
     other_designs: Mapping[str, str] = field(default_factory=dict)
+    catalogue: str = ""  # package of its own tables, beside those of ``case.catalogues``
 
     @property
     def element(self) -> str:

@@ -23,5 +23,6 @@ FAMILY = Family(
     figures=None,
     rubbing=None,
     shapes=None,
-    inside=None,
+    inside=lambda: slots.inside,
+    catalogue="flexcage.bearings.tapered_roller.catalogue",
 )
