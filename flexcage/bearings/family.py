@@ -55,6 +55,7 @@ class Family:
     losses: Callable[[], LossesOf] | None = None  # of static solutions
     rows_of: str = ""  # name of the family whose elements its rows have, of several rows
     other_designs: Mapping[str, str] = field(default_factory=dict)
+    catalogue: str = ""  # package of its own tables, beside those of ``case.catalogues``
 
     @property
     def element(self) -> str:

@@ -68,7 +68,8 @@ def read(text: str) -> Designation | None:
     for own, match in _numbers(name, cuts):
         row, end = series()[own], match.end()
         angle, degrees = _angle(name[end:], row, match["prefix"])
-        rest = end + len(angle)
+        firsts = _of_series(name[end + len(angle) :], own)
+        rest = end + len(angle) + len("".join(firsts))
         tokens = _tokens(name, rest, cuts)
         marks, unknown = _marks_of(tokens)
         joined = _marks_of([name[rest:]]) if unknown else ((), ())
@@ -79,7 +80,7 @@ def read(text: str) -> Designation | None:
             continue
         return Designation(
             prefix=match["prefix"], series=own, code=match["code"], angle=angle,
-            degrees=degrees, marks=marks, unknown=unknown,
+            degrees=degrees, marks=(*firsts, *marks), unknown=unknown,
         )  # fmt: skip
     return None
 
@@ -131,6 +132,18 @@ def _angle(rest: str, row: dict[str, str], prefix: str) -> tuple[str, str]:
     return best, known.get(best, "")
 
 
+def _of_series(rest: str, own: str) -> list[str]:
+    """Marks at the beginning of a text that mean something after numbers of one series alone."""
+    found: list[str] = []
+    known = [
+        m for m, row in meanings().items() if row.get("series") and own.startswith(row["series"])
+    ]
+    while fitting := [mark for mark in known if rest.startswith(mark)]:
+        found.append(max(fitting, key=len))
+        rest = rest.removeprefix(found[-1])
+    return found
+
+
 def _tokens(name: str, rest: int, cuts: set[int]) -> list[str]:
     """Texts between separators after a place in a name."""
     ends = sorted(cut for cut in cuts if cut > rest)
@@ -162,7 +175,7 @@ def _split(text: str) -> tuple[tuple[str, ...], str]:
     best: tuple[tuple[str, ...], str] = ((), text)
     if together := _TOGETHER.match(text):
         best = _better(best, (together[1], f"C{together[2]}"), text[together.end() :])
-    for mark in (*meanings(), *GROUPS):
+    for mark in (*(m for m, row in meanings().items() if not row.get("series")), *GROUPS):
         if text.startswith(mark):
             best = _better(best, (mark,), text[len(mark) :])
     return best
@@ -200,7 +213,8 @@ def suffixes() -> dict[str, str]:
 @cache
 def meanings() -> dict[str, dict[str, str]]:
     """By mark: its meaning, what there is instead where flexcage has no such thing, the types and
-    the material of cages, and the material of elements that it names."""
+    the material of cages, and the material of elements that it names; the series whose marks they
+    are, of those that one family's table has."""
     return {row["mark"]: row for row in rows("marks")}
 
 

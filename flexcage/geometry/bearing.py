@@ -229,6 +229,11 @@ class Bearing:
         """Contact angle [rad] to which kinematics refer."""
         return 0.0
 
+    def rolling_angles(self, angles: tuple[float, float]) -> tuple[float, float]:
+        """Angles [rad] of inner and outer race that kinematics take where elements bear at contact
+        angles [rad]: the same, but for cones, whose races differ in theirs all along."""
+        return angles
+
     @property
     def rolling_heights(self) -> tuple[float, float]:
         """h/N^(2/3) [N^(-2/3)] of inner and outer race: under a force N, an element rolls at h

@@ -8,7 +8,7 @@ how much a bearing carries, and so what must be in it.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import log
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -59,7 +59,7 @@ class Outline:
     the designation names no group of ``clearance``. ``complement``: of what the ratings are, and
     whether the bearing has a cage (``full_complement``); ``cage`` and ``element_material`` (its
     name): those that the designation names. ``left_out``: what else the designation says, a
-    sentence each.
+    sentence each. ``further``: lengths [m] that only a family's own tables have.
     """
 
     type: str
@@ -80,6 +80,7 @@ class Outline:
     cage: MarkedCage | None = None
     element_material: str | None = None
     left_out: tuple[str, ...] = ()
+    further: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if not self.outside_diameter > self.bore:
@@ -158,8 +159,9 @@ class Candidate:
 @dataclass(frozen=True, kw_only=True)
 class Inference:
     """How a family infers internal geometry: ``candidates`` for an outline, in any order, and the
-    type of cage that its types of bearing commonly have; ``count``: key of the number of elements;
-    ``full``: candidates for ratings of a full complement, None where these tell none."""
+    type of cage that its types of bearing commonly have, "" of those that do not run; ``count``:
+    key of the number of elements; ``full``: candidates for ratings of a full complement, None where
+    these tell none."""
 
     candidates: Callable[[Outline], Sequence[Candidate]]
     cages: Mapping[str, str]

@@ -7,10 +7,8 @@ import re
 from collections.abc import Mapping
 from types import MappingProxyType
 
-_HAS = (
-    "flexcage has none: it has deep groove and angular contact ball bearings, and cylindrical "
-    "roller bearings, single-row"
-)
+from flexcage.core.wings import FAMILIES
+
 _AS_TYPE = (
     "its internal geometry is not inferred: give that in a case as bearing.type '{}', for "
     "'flexcage static'"
@@ -48,7 +46,6 @@ _DESIGNATIONS = {
     r"X[RS]U?\d.*|RB\d{4,}.*": "a crossed roller bearing",
 }
 _NAMES = {
-    r"taper.*": "tapered roller bearings",
     r".*thrust.*": "thrust bearings",
     r"(spherical|barrel).*": "spherical roller bearings",
     r"(double|two|multi|four).?row.*|duplex.*": "such bearings of several rows",
@@ -98,9 +95,12 @@ def kind_of(designation: str) -> str:
             "the preload in load.axial"
         )
     two_rows = _FOUR_DIGITS.fullmatch(designation.strip())
+    here = {f"a {kind}" for kind in _kinds()}
     for pattern, kind in _DESIGNATIONS.items():
         if re.fullmatch(pattern, designation.strip()[:4] if two_rows else name):
-            return f"is {kind}; {_AS_TYPE.format(_TYPES[kind]) if kind in _TYPES else _HAS}"
+            if kind in _TYPES:
+                return f"is {kind}; {_AS_TYPE.format(_TYPES[kind])}"
+            return "" if kind in here else f"is {kind}; {_has()}"
     return ""
 
 
@@ -111,5 +111,16 @@ def named_kind(name: str) -> str:
         return 'a bearing without a cage is one of these types, with model = "none" in [cage]'
     for pattern, kinds in _NAMES.items():
         if re.fullmatch(pattern, name.strip(), re.IGNORECASE):
-            return f"of {kinds} {_HAS}"
+            return f"of {kinds} {_has()}"
     return ""
+
+
+def _kinds() -> list[str]:
+    """Kinds of bearings that all families have, in words."""
+    return sorted(spec.kind for family in FAMILIES.values() for spec in family.types)
+
+
+def _has() -> str:
+    *kinds, last = _kinds()
+    first = f"{', '.join(f'{kind}s' for kind in kinds)} and " if kinds else ""
+    return f"flexcage has none: it has {first}{last}s"

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from flexcage.bearings.cylindrical_roller import slots
-from flexcage.bearings.cylindrical_roller.bearing import (
-    OTHER_DESIGNS,
-    RollerBearing,
-    RollerProfile,
-)
+from flexcage.bearings.cylindrical_roller.bearing import OTHER_DESIGNS, RollerBearing
 from flexcage.bearings.cylindrical_roller.rules import RULES
 from flexcage.bearings.cylindrical_roller.spot import RollerSpot
 from flexcage.bearings.family import Family
+from flexcage.geometry.rollers import RollerProfile
 
 # specs that ``flexcage.spec`` shows
 __all__ = ["RollerBearing", "RollerProfile", "RollerSpot"]

@@ -1,4 +1,4 @@
-"""Cylindrical roller bearings: the spec, roller mass and inertia, and the roller profile."""
+"""Cylindrical roller bearings: the spec, roller mass and inertia."""
 
 from __future__ import annotations
 
@@ -25,6 +25,7 @@ from flexcage.geometry.film import Film, Oil, both_races, line_film, rolling_ent
 from flexcage.geometry.life.iso281 import ROLLERS, Endurance
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.other_kinds import SURROUNDINGS
+from flexcage.geometry.rollers import RollerProfile
 from flexcage.geometry.spall import BY_RACE, Spall
 
 if TYPE_CHECKING:
@@ -46,32 +47,6 @@ BY_RIBS = (
     "guide the rollers, counter_rib_diameter and counter_rib_gap of the other ring's"
 )
 _MOST_PRESSED = 0.01  # of a roller's diameter, a hundred times what C0 leaves for good (ISO 76)
-
-
-@dataclass(frozen=True, kw_only=True)
-class RollerProfile:
-    """Profile of the roller's generatrix: the radial drop P(x) at axial distance x from its centre.
-
-    ``logarithmic``: ISO/TS 16281, P = 0.00035 Dw ln(1/(1-(2x/Lwe)^2)) for Lwe <= 2.5 Dw and its
-    long-roller form otherwise; ``crowned``: a circular arc of ``crown_radius``; ``straight``: 0.
-    """
-
-    kind: str = option("logarithmic", choices=("logarithmic", "crowned", "straight"))
-    crown_radius: float = quantity(
-        "m", 10.0, doc="radius of a crowned profile", above=0.0, when={"kind": ("crowned",)}
-    )
-
-    def drop(self, x: np.ndarray, *, diameter: float, length: float) -> np.ndarray:
-        """Radial drop [m] at |x| < length/2; infinite at the very end of a logarithmic profile."""
-        x = np.abs(np.asarray(x, float))
-        if self.kind == "straight":
-            return np.zeros_like(x)
-        if self.kind == "crowned":
-            return x**2 / (2.0 * self.crown_radius)
-        if length <= 2.5 * diameter:
-            return -0.00035 * diameter * np.log(1.0 - (2.0 * x / length) ** 2)
-        over = np.maximum(2.0 * x - (length - 2.5 * diameter), 0.0) / (2.5 * diameter)
-        return -0.0005 * diameter * np.log(1.0 - over**2)
 
 
 @dataclass(frozen=True, kw_only=True)

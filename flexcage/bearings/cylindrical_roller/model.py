@@ -73,12 +73,9 @@ class RollerModel(NamedTuple):
 
 def slice_grid(bearing: RollerBearing, slices: int) -> tuple[np.ndarray, np.ndarray]:
     """Slice centres (n,) on the effective length, and the profile's drop there (n,) [m]."""
-    width = bearing.effective_length / slices
-    s = (np.arange(slices) + 0.5) * width - 0.5 * bearing.effective_length
-    drop = bearing.profile.drop(
-        s, diameter=bearing.roller_diameter, length=bearing.effective_length
+    return bearing.profile.slices(
+        slices, diameter=bearing.roller_diameter, length=bearing.effective_length
     )
-    return s, drop
 
 
 def _race_side(bearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool) -> RaceSide:

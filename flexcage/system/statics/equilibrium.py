@@ -266,7 +266,7 @@ def settle(
         going = (left > least) & ~stuck
         if not going.any():
             break
-        stiffness = r.unbalance_w + problem.soft * np.eye(2)
+        stiffness = r.unbalance_w + problem.soft * np.eye(w.shape[1])
         step = -np.linalg.solve(stiffness, r.unbalance[..., None])[..., 0]
         slope = (step * r.unbalance).sum(axis=1)
         far = np.abs(step).max(axis=1)

@@ -1,0 +1,4 @@
+from flexcage.bearings.tapered_roller.inference import INFERENCE as inside
+from flexcage.bearings.tapered_roller.statics import rollers_of as statics
+
+__all__ = ["inside", "statics"]
