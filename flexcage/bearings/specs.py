@@ -2,3 +2,4 @@
 
 from flexcage.bearings.ball import *  # noqa: F403
 from flexcage.bearings.cylindrical_roller import *  # noqa: F403
+from flexcage.bearings.four_point import *  # noqa: F403

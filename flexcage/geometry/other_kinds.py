@@ -43,7 +43,6 @@ _NAMES = {
     r"(spherical|barrel).*": "spherical roller bearings",
     r"self.?align.*": "self-aligning bearings",
     r"(double|two|multi|four).?row.*|duplex.*": "bearings of several rows",
-    r"(four|three).?point.*|qj": "four-point contact bearings",
     r"needle.*": "needle roller bearings",
     r"(cross|toroid|carb|insert|slewing|linear|plain|journal|magnetic|slide).*": "such bearings",
 }

@@ -19,7 +19,8 @@ ROOMS = ("contacts", "solve", "system")
 @dataclass(frozen=True)
 class Left:
     """A family that is left out: presets that want it and that do not, one of its specs, what its
-    tests have in their texts, and answers of ``flexcage verify`` on it alone."""
+    tests have in their texts, answers of ``flexcage verify`` on it alone, and the families that are
+    built on it, which go with it."""
 
     preset: str
     other: str
@@ -27,12 +28,13 @@ class Left:
     said: str
     words: str
     answers: str = "no such file"
+    built_on: tuple[str, ...] = ()
 
 
 FAMILIES = {
     "ball": Left(
         "7010C-PI", "N1013", "BallBearing", "bearing.type 'angular_contact_ball' is not known",
-        "ball|groove|ribbon|crown|7010|6205|7603025",
+        "ball|groove|ribbon|crown|7010|6205|7603025", built_on=("four_point",),
     ),
     "cylindrical_roller": Left(
         "N1013", "7010C-PI", "RollerBearing", "which is not registered",
@@ -48,9 +50,10 @@ def without(request, tmp_path_factory):
     copy = tmp_path_factory.mktemp("copy")
     own = shutil.ignore_patterns("__pycache__")
     shutil.copytree(ROOT / "flexcage", copy / "flexcage", ignore=own)
-    shutil.rmtree(copy / "flexcage/bearings" / request.param)
-    _edit(copy / "flexcage/bearings/specs.py", rf"from flexcage\.bearings\.{request.param} .*\n")
     left = FAMILIES[request.param]
+    for family in (request.param, *left.built_on):
+        shutil.rmtree(copy / "flexcage/bearings" / family)
+        _edit(copy / "flexcage/bearings/specs.py", rf"from flexcage\.bearings\.{family} .*\n")
     for answer in (copy / "flexcage/verification/cases").glob(left.answers):
         answer.unlink()
     shutil.copy(ROOT / "pyproject.toml", copy)

@@ -1,0 +1,3 @@
+from flexcage.bearings.four_point.statics import four_point_balls_of as statics
+
+__all__ = ["statics"]
