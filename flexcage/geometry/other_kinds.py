@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 _HAS = (
-    "flexcage has none: it has deep groove and angular contact ball bearings, and cylindrical "
-    "roller bearings, single-row"
+    "flexcage has none: it has deep groove, angular contact and four-point contact ball bearings, "
+    "and cylindrical roller bearings, single-row"
 )
 # ISO 15 and makers' catalogues (SKF, Schaeffler, NSK): first digits and letters of designations
 # without spaces, dashes and strokes, and what such a bearing is
@@ -23,7 +23,6 @@ _DESIGNATIONS = {
     r"(1[23]|2[23])\d\d([A-Z].*)?": "a self-aligning ball bearing",
     r"(3[0238]|5[23])\d\d([A-Z].*)?": "a double row angular contact ball bearing",
     r"4[23]\d\d([A-Z].*)?": "a double row deep groove ball bearing",
-    r"QJF?\d.*": "a four-point contact ball bearing",
     r"(NK|NKI|NKS|NKIS|NA|RNA|HK|BK|NKIA|NKIB|NKX|NKXR|AXK|AXW|K)\d.*": "a needle roller bearing",
     r"(NNCF|NNCL|NNC|NNF|SL0\d|SL1850)\d.*": "a double row full complement cylindrical roller "
     "bearing",
