@@ -6,11 +6,10 @@ import numpy as np
 
 from flexcage.bearings.ball.start import begun, placed
 from flexcage.bearings.four_point.bearing import FourPointContactBearing
+from flexcage.bearings.four_point.inertia import HELD
 from flexcage.system.begun import Advance, Start, StaticStart
 from flexcage.system.problem import BearingSystem
 from flexcage.system.statics.solution import StaticSolution
-
-_BOTH = 0.1  # force of a race's lesser arc over that of the other: balls roll on both
 
 
 def four_point_start(
@@ -45,7 +44,7 @@ def _turn_straight(
         two = [force for name, force in loads.items() if name.startswith(f"{ring} ")]
         if not two:
             continue
-        straight = np.min(two, axis=0) > _BOTH * np.max(two, axis=0)
+        straight = np.min(two, axis=0) > HELD * np.max(two, axis=0)
         spin = -u[:, 2] / (bearing.data.model.bodies.radius * np.cos(angle))
         u[straight, 3], u[straight, 4] = spin[straight], 0.0
     bearing.layout.q(start.yd)["elements"][:, 3:] = u[:, 3:]
