@@ -31,7 +31,6 @@ _DESIGNATIONS = {
     r"(1[23]|2[23])\d\d([A-Z].*)?": "a self-aligning ball bearing",
     r"(3[0238]|5[23])\d\d([A-Z].*)?": "a double row angular contact ball bearing",
     r"4[23]\d\d([A-Z].*)?": "a double row deep groove ball bearing",
-    r"QJF?\d.*": "a four-point contact ball bearing",
     r"(NK|NKI|NKS|NKIS|NA|RNA|HK|BK|NKIA|NKIB|NKX|NKXR|AXK|AXW|K)\d.*": "a needle roller bearing",
     r"(NNCF|NNCL|NNC|NNF|SL0\d|SL1850)\d.*": "a double row full complement cylindrical roller "
     "bearing",
@@ -49,7 +48,6 @@ _NAMES = {
     r".*thrust.*": "thrust bearings",
     r"(spherical|barrel).*": "spherical roller bearings",
     r"(double|two|multi|four).?row.*|duplex.*": "such bearings of several rows",
-    r"(four|three).?point.*|qj": "four-point contact bearings",
     r"needle.*": "needle roller bearings",
     r"(cross|toroid|carb|insert|slewing|linear|plain|journal|magnetic|slide).*": "such bearings",
 }

@@ -9,6 +9,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterator
 from math import atan2
+from typing import Any
 
 import numpy as np
 
@@ -128,7 +129,9 @@ def starting_point(result: BearingResult) -> StaticSolution:
     )  # fmt: skip
 
 
-def _turned(values: np.ndarray, order: np.ndarray) -> np.ndarray:
+def _turned(values: Any, order: np.ndarray) -> Any:
+    if isinstance(values, dict):
+        return {name: _turned(each, order) for name, each in values.items()}
     return values[order] if np.ndim(values) and len(values) == len(order) else values
 
 

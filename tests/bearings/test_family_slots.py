@@ -53,11 +53,11 @@ def test_a_family_without_motion_has_statics():
 
 
 def test_families_know_nothing_of_each_other():
-    """But for those of several rows, which know the family of their rows."""
+    """But for those that say on which other one they are built."""
     graph = grimp.build_graph("flexcage")
     folders = [f"{bearings.__name__}.{m.name}" for m in iter_modules(bearings.__path__) if m.ispkg]
     assert len(folders) > 1
-    rows = {(f"{bearings.__name__}.{f.name}", f"{bearings.__name__}.{f.rows_of}")
+    rows = {(f"{bearings.__name__}.{f.name}", f"{bearings.__name__}.{f.built_on}")
             for f in FAMILIES.values()}  # fmt: skip
     for importer, imported in set(permutations(folders, 2)) - rows:
         chain = graph.find_shortest_chain(importer, imported, as_packages=True)

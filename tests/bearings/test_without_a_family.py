@@ -21,7 +21,8 @@ ROOMS = ("contacts", "solve", "system")
 @dataclass(frozen=True)
 class Left:
     """A family that is left out: presets that want it and that do not, one of its specs, what its
-    tests have in their texts, and answers of ``flexcage verify`` on it alone."""
+    tests have in their texts, answers of ``flexcage verify`` on it alone, and the families that are
+    built on it, which go with it."""
 
     preset: str
     other: str
@@ -50,7 +51,7 @@ def without(request, tmp_path_factory):
     copy = tmp_path_factory.mktemp("copy")
     own = shutil.ignore_patterns("__pycache__")
     shutil.copytree(ROOT / "flexcage", copy / "flexcage", ignore=own)
-    built_on_it = [family.name for family in WING.values() if family.rows_of == request.param]
+    built_on_it = [family.name for family in WING.values() if family.built_on == request.param]
     for name in (request.param, *built_on_it):
         shutil.rmtree(copy / "flexcage/bearings" / name)
         _edit(copy / "flexcage/bearings/specs.py", rf"from flexcage\.bearings\.{name} .*\n")

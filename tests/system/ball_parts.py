@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import numpy as np
 from flexible_parts import shapes_at
 from scipy import sparse
 
+from flexcage.bearings.ball.bearing import BallBearing
 from flexcage.bearings.ball.motion import MOTION
+from flexcage.bearings.four_point import FourPointContactBearing
+from flexcage.bearings.four_point.motion import MOTION as FOUR_POINT
 from flexcage.bodies.floating_frame import flexible_body
 from flexcage.cages.round_pocket.interface import BallCageInterface, wall_stations
 from flexcage.case.presets import load_preset
@@ -63,12 +66,13 @@ def ball_cage(preset, *, modes=6, soft=3e-8):
 
 def ball_bearing(
     *, contacts=None, load=None, speed=0.0, mount=None, lubricant=DRY, modes=6, change=None,
-    shape="cylindrical", shoulders=None,
+    shape="cylindrical", shoulders=None, spec=None, motion=MOTION,
 ):  # fmt: skip
     """A ``BearingSystem`` of the preset 7010C-PI; ``change(interface)`` alters the cage's walls,
-    ``shoulders`` [m] the gaps that the rings' shoulders leave the cage."""
+    ``shoulders`` [m] the gaps that the rings' shoulders leave the cage; ``spec`` and ``motion``: of
+    another bearing of that size."""
     preset = load_preset("7010C-PI")
-    cage, spec = replace(preset.cage, pocket_shape=shape), preset.bearing
+    cage, spec = replace(preset.cage, pocket_shape=shape), spec or preset.bearing
     if shoulders is not None:
         wall = 0.25 * (cage.outside_diameter - cage.bore)
         height = 0.5 * spec.ball_diameter - wall - shoulders
@@ -77,13 +81,22 @@ def ball_bearing(
     if change is not None:
         change(interface)
     contacts = contacts or contacts_of()
-    model = MOTION.build_model(
+    model = motion.build_model(
         spec, cage, body, interface, contacts=contacts, lubricant=lubricant,
         drive=Drive(speed=speed), load=load or Load(gravity=0.0, tilt="free"),
         mount=mount or Mount(),
     )  # fmt: skip
     layout = Layout(preset.bearing.ball_count, bodies_of_bearing(body.modes))
-    return BearingSystem(MOTION, spec, model, contacts, layout)
+    return BearingSystem(motion, spec, model, contacts, layout)
+
+
+def four_point(*, clearance=-10e-6, shims=(0.15e-3, 0.2e-3)):
+    """What ``ball_bearing`` takes for a four-point contact bearing of its balls and grooves."""
+    own = {f.name: getattr(load_preset("7010C-PI").bearing, f.name) for f in fields(BallBearing)}
+    own |= {"type": "four_point_contact", "inner_shim": shims[0], "outer_shim": shims[1]}
+    return {
+        "spec": FourPointContactBearing(**own, radial_clearance=clearance), "motion": FOUR_POINT,
+    }  # fmt: skip
 
 
 def pressed(bearing, *, seed=0, push=0.28e-3):

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from ball_parts import ball_bearing, contacts_of, pressed
+from ball_parts import ball_bearing, contacts_of, four_point, pressed
 
 from flexcage.contacts.spec import Lubricant
 from flexcage.system.data import POWERS
@@ -32,6 +32,9 @@ STATES = {
     "spheres": ({"shape": "spherical"}, {}),
     "bushing": ({"mount": Mount(kind="bushing", mass=1.0)}, {}),
     "rigid cage": ({"modes": 0}, {}),
+    "four arcs": (four_point(), {}),
+    "four arcs, sliding": (four_point(clearance=0.0), {"slide": 2.0, "axial": 20e-6}),
+    "three arcs": (four_point(shims=(0.2e-3, 0.0)), {}),
     "tilt held": ({"load": Load(axial=1000.0, misalignment=2e-4)}, {}),
 }
 

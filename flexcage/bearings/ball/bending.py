@@ -101,7 +101,8 @@ def _on_race(side, i, y, ring, race, modes, d, law, mode):
     qi, ui, s = y[: at.bodies_q][own], y[at.u : at.bodies_u][own], y[at.loads :]
     laws, sl = Laws(law[RACE_LAW], law[RACE_RUBS]), fields(d.slices).row[0]
     zero(pair.wrench)
-    ball = _carried(i, on_race(i, qi, ui, ring, side, d), modes)
+    onset = fields(d.memory).race[i, side]
+    ball = _carried(i, on_race(i, qi, ui, ring, onset, d), modes)
     yielded = _yielded(side, i, ball, race, s, laws, sl, races)
     if groove_contact(yielded, race, laws, sl, pair.wrench, mode, work.sums):
         _bear(side, i, yielded, race, sl, races)

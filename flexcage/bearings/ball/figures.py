@@ -73,9 +73,10 @@ SLIP.add("slip_loaded_nominal", "Slip ratio, loaded balls, nominal", "%",
 SLIP.add("slip_curvature", "Slip ratio by the grooves' curvature", "%",
          "what curvature alone makes: balls roll on lines beside the middle of a contact",
          take=_curvature)
-SLIP.add("contact_angle_inner", "Contact angle, inner race", "deg", "mean of loaded balls",
+ANGLES = FigureTable[SettledRun]("Slip")
+ANGLES.add("contact_angle_inner", "Contact angle, inner race", "deg", "mean of loaded balls",
          "signed", "brief", take=partial(_contact_angle, 0))
-SLIP.add("contact_angle_outer", "Contact angle, outer race", "deg", "mean of loaded balls",
+ANGLES.add("contact_angle_outer", "Contact angle, outer race", "deg", "mean of loaded balls",
          "signed", take=partial(_contact_angle, 1))
 GROOVES = FigureTable[Edge]("Grooves")
 GROOVES.add("edge_inner", "Ellipse beyond the inner groove's edge", "deg",
@@ -91,7 +92,7 @@ MOTION.add("whirl_difference", "Whirl radius, max - min", "um",
 # fmt: on
 
 FIGURES = OwnFigures(
-    tables=(SPEEDS, SLIP, GROOVES, MOTION),
+    tables=(SPEEDS, SLIP, ANGLES, GROOVES, MOTION),
     slip_title="Balls",
     slip=(
         "slip_loaded", "slip_loaded_nominal", "slip_curvature", "slip_unloaded",

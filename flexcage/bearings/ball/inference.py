@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from math import asin, ceil, degrees, pi, radians, sin
@@ -21,7 +21,7 @@ _SHIFTED = 1.015  # pitch circle over the mean of bore and outside, at most
 _CLOSEST = 0.92  # ball over the distance of two balls: webs of a cage remain
 _INNER_GROOVE, _OUTER_GROOVE = 0.515, 0.525  # radii over the ball's diameter
 _DEEP_GROOVE = name_of(DeepGrooveBallBearing)
-_SHOULDERS = {_DEEP_GROOVE: 0.17, name_of(AngularContactBallBearing): 0.2}  # heights, likewise
+_SHOULDERS, _STEEP = {_DEEP_GROOVE: 0.17}, 0.2  # heights, likewise: those of steep contact angles
 _CLEARANCE = 10e-6  # m
 
 _INCH = 25.4e-3
@@ -29,7 +29,7 @@ _LARGEST_BALL = 0.15  # m
 
 
 @dataclass(frozen=True)
-class _Balls:
+class Balls:
     diameter: float  # m
     count: int
     pitch: float  # m, diameter of the circle of their centres
@@ -51,21 +51,32 @@ def _sizes(smallest: float, largest: float) -> Iterator[tuple[float, str, float]
 
 def candidates(outline: Outline) -> list[Candidate]:
     """Every number of every standard ball that has room."""
-    deep = outline.type == _DEEP_GROOVE
-    if not deep:
+    if outline.type == _DEEP_GROOVE:
+        return every(outline, _filled, _deep_groove, filling_angle)
+    return every(outline, between, _angular_contact)
+
+
+def every(
+    outline: Outline,
+    pitch_of: Callable[[Outline, float, int], float | None],
+    make: Callable[[Outline, Balls, float], Candidate],
+    filling: Callable[[int, float, float], float] = lambda *balls: _FILLED,
+) -> list[Candidate]:
+    """What ``make`` makes of every number of every standard ball for which there is a pitch circle;
+    ``filling``: the arc that the balls take while they are filled in."""
+    if outline.type != _DEEP_GROOVE:
         outline.required("contact_angle", "the contact angle (--contact-angle)")
     height = outline.outside_diameter - outline.bore
     found = []
     for diameter, name, unusual in _sizes(_SMALLEST * height, _LARGEST * height):
         walls = ((diameter / height - _USUAL) / 0.025) ** 2
         for count in range(5, 60):
-            pitch = (_filled if deep else _between)(outline, diameter, count)
+            pitch = pitch_of(outline, diameter, count)
             if pitch is None:
                 break
-            angle = filling_angle(count, diameter, pitch) if deep else _FILLED
+            angle = filling(count, diameter, pitch)
             unlikely = unusual + walls + ((angle - _FILLED) / radians(10.0)) ** 2
-            make = _deep_groove if deep else _angular_contact
-            found.append(make(outline, _Balls(diameter, count, pitch, name), unlikely))
+            found.append(make(outline, Balls(diameter, count, pitch, name), unlikely))
     return found
 
 
@@ -81,7 +92,7 @@ def _filled(outline: Outline, diameter: float, count: int) -> float | None:
     return pitch if fits else None
 
 
-def _between(outline: Outline, diameter: float, count: int) -> float | None:
+def between(outline: Outline, diameter: float, count: int) -> float | None:
     """Pitch circle [m] where webs remain between the balls."""
     mean = _mean(outline)
     return mean if diameter <= _CLOSEST * mean * sin(pi / count) else None
@@ -93,9 +104,9 @@ def filling_angle(count: int, diameter: float, pitch: float) -> float:
     return 2.0 * (count - 1) * asin(diameter / pitch)
 
 
-def _dimensions(outline: Outline, balls: _Balls) -> tuple[dict[str, Any], dict[str, str]]:
-    """Dimensions [m] that both types have, and how each was found."""
-    diameter, shoulder = balls.diameter, _SHOULDERS[outline.type]
+def dimensions_of(outline: Outline, balls: Balls) -> tuple[dict[str, Any], dict[str, str]]:
+    """Dimensions [m] that all types have, and how each was found."""
+    diameter, shoulder = balls.diameter, _SHOULDERS.get(outline.type, _STEEP)
     more = balls.pitch / _mean(outline) - 1.0
     shares = {
         "inner_groove_radius": _INNER_GROOVE,
@@ -121,8 +132,8 @@ def _dimensions(outline: Outline, balls: _Balls) -> tuple[dict[str, Any], dict[s
     return dimensions, reasons
 
 
-def _deep_groove(outline: Outline, balls: _Balls, unlikely: float) -> Candidate:
-    dimensions, reasons = _dimensions(outline, balls)
+def _deep_groove(outline: Outline, balls: Balls, unlikely: float) -> Candidate:
+    dimensions, reasons = dimensions_of(outline, balls)
     angle = degrees(filling_angle(balls.count, balls.diameter, balls.pitch))
     reasons["ball_count"] += f"; the filling angle is {angle:.0f} degrees"
     clearance, reasons["radial_clearance"] = outline.clearance_in_operation(_CLEARANCE)
@@ -130,8 +141,8 @@ def _deep_groove(outline: Outline, balls: _Balls, unlikely: float) -> Candidate:
     return Candidate(outline=outline, bearing=bearing, reasons=reasons, unlikely=unlikely)
 
 
-def _angular_contact(outline: Outline, balls: _Balls, unlikely: float) -> Candidate:
-    dimensions, reasons = _dimensions(outline, balls)
+def _angular_contact(outline: Outline, balls: Balls, unlikely: float) -> Candidate:
+    dimensions, reasons = dimensions_of(outline, balls)
     bearing = AngularContactBallBearing(contact_angle=outline.contact_angle, **dimensions)
     return Candidate(outline=outline, bearing=bearing, reasons=reasons, unlikely=unlikely)
 

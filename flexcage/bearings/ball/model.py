@@ -213,12 +213,13 @@ def _lands(
     return land if outer is None else with_other(land, outer)
 
 
-def ball_work(model: BallModel, layout: Layout) -> Work:
-    """Fresh workspaces of a ball bearing for one thread."""
+def ball_work(model: BallModel, layout: Layout, ribs: int = 1) -> Work:
+    """Fresh workspaces of a ball bearing for one thread; ``ribs``: what its balls may touch besides
+    two races and their pocket."""
     stations = model.pocket.phi.shape[2]
     return new_work(
         layout, race_work(1), ball_pocket_work(stations, layout.modes), slices=0, points=0,
-        faces=int(layout.has_cage), stations=stations, ribs=1,
+        faces=int(layout.has_cage), stations=stations, ribs=ribs,
         land_stations=len(model.land.angle), turns=(3, 4, 5),
         other_land=model.land.other_kind != NONE,
     )  # fmt: skip

@@ -115,13 +115,13 @@ def set_bodies(y, d, mode):
 
 
 @part
-def on_race(i, qi, ui, ring, race, d):
-    """Ball i as the race of a ring meets it, in its frame F."""
+def on_race(i, qi, ui, ring, onset, d):
+    """Ball i as the race of a ring meets it, in its frame F; ``onset``: speed at which they met."""
     F = fields(d.pose).F
     P = minus((qi[0], qi[1], 0.0), turned(F, xyz(ring.q)))
     return BallOnRace(
         fields(d.bodies).radius[i], P, xyz(ui), turn_of(ui), turned(F, xyz(ring.axis)),
-        turned(F, xyz(ring.u)), turned(F, xyz(ring.spin)), fields(d.memory).race[i, race],
+        turned(F, xyz(ring.u)), turned(F, xyz(ring.spin)), onset,
         qi[2] - ring.q[Q_SPIN], fields(d.spot).has[i], turn_of(qi),
     )  # fmt: skip
 
@@ -150,7 +150,7 @@ def _on_race(i, qi, ui, ring, groove, race, d, law, mode):
     work, pair = fields(d.scratch), fields(d.pair)
     laws, sl = Laws(law[RACE_LAW], law[RACE_RUBS]), fields(d.slices).row[0]
     zero(pair.wrench)
-    ball = on_race(i, qi, ui, ring, race, d)
+    ball = on_race(i, qi, ui, ring, fields(d.memory).race[i, race], d)
     if groove_contact(ball, groove, laws, sl, pair.wrench, mode, work.sums):
         push_pair(i, pair.wrench, work.unit, ball.centre, ring.b, d)
     if mode >= REPORT:

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import pi
+from typing import Any
 
 import numpy as np
 
@@ -33,8 +34,13 @@ def ball_start(
 ) -> Start:
     """The static solution, which has to be given, with balls that roll; no force is limited."""
     assert statics is not None, "balls start at their static solution"
-    model, solution = bearing.data.model, statics()
-    y = ball_places(bearing, solution)
+    solution = statics()
+    return begun(bearing, solution, ball_places(bearing, solution))
+
+
+def begun(bearing: BearingSystem, solution: StaticSolution, y: np.ndarray) -> Start:
+    """The start with rings and balls where y has them: balls roll, the cage is strained."""
+    model = bearing.data.model
     clear_of_land(model.land, bearing.layout, y)
     yd = rolling_balls(model, bearing.layout, solution, y)
     assert isinstance(bearing.spec, BallBearing)
@@ -65,13 +71,21 @@ def ball_places(bearing: BearingSystem, solution: StaticSolution) -> np.ndarray:
 
     A ball that bears nothing lies on the outer race at the angle of the others, or at none.
     """
+    angle = np.nan_to_num(solution.elements.angle[:, 1])
+    return placed(bearing, solution, angle, bearing.data.model.outer.axial)
+
+
+def placed(
+    bearing: BearingSystem, solution: StaticSolution, angle: np.ndarray, axial: Any
+) -> np.ndarray:
+    """The same with balls on the outer race at angles (Z,), in grooves whose centres' axial places
+    are ``axial``, one or (Z,)."""
     model, layout, balls = bearing.data.model, bearing.layout, solution.elements
     y = np.zeros(layout.size)
     q = layout.q(y)
-    angle = np.nan_to_num(balls.angle[:, 1])
     depth = (balls.force[:, 1] / model.outer.normal[0]) ** (2.0 / 3.0)
     reach = model.outer.radius - model.bodies.radius + depth
-    q["elements"][:, 0] = model.outer.axial + reach * np.sin(angle)
+    q["elements"][:, 0] = axial + reach * np.sin(angle)
     q["elements"][:, 1] = model.outer.centre + reach * np.cos(angle)
     q["elements"][:, 2] = 2.0 * pi * np.arange(layout.elements) / layout.elements
     q["inner"][:5], q["outer"][:5] = solution.displacement, solution.outer

@@ -107,7 +107,11 @@ class Balls:
     def guesses(self, v: np.ndarray) -> list[np.ndarray]:
         """Balls on the outer race alone, where they push; squeezed along the line of both grooves'
         centres; and wedged between both grooves, too far apart to squeeze them."""
-        groove, (inner, outer) = self.groove(v), self.bearing.contacts
+        return self.guesses_at(self.groove(v))
+
+    def guesses_at(self, groove: np.ndarray) -> list[np.ndarray]:
+        """Those with the inner groove's centre (2, Z) there, seen from the outer one's."""
+        inner, outer = self.bearing.contacts
         distance, toward = np.hypot(*groove), np.arctan2(groove[0], groove[1])
         depths = [(self.push / c.stiffness) ** (2.0 / 3.0) for c in (inner, outer)]
         reach = [length + depth for length, depth in zip(self.lengths, depths)]
@@ -131,8 +135,8 @@ class Balls:
     def respond(self, v: np.ndarray, w: np.ndarray, share: float) -> Response:
         ball, groove = w.T, self.groove(v)
         inner, outer = self.bearing.contacts
-        e_inner, f_inner, h_inner = _spring(groove - ball, self.lengths[0], inner)
-        e_outer, f_outer, h_outer = _spring(ball, self.lengths[1], outer)
+        e_inner, f_inner, h_inner = spring(groove - ball, self.lengths[0], inner)
+        e_outer, f_outer, h_outer = spring(ball, self.lengths[1], outer)
         push = np.array([[0.0], [self.push]])
         ring, rest = f_inner, f_outer - f_inner - push
         ring_a, ring_w, rest_a, rest_w = h_inner, -h_inner, -h_inner, h_inner + h_outer
@@ -158,7 +162,7 @@ class Balls:
         ball, groove = w.T, self.groove(v)
         cosines = directions(ball, groove)
         forces = [
-            np.hypot(*_spring(line, length, contact)[1])
+            np.hypot(*spring(line, length, contact)[1])
             for line, length, contact in zip(
                 (groove - ball, ball), self.lengths, self.bearing.contacts
             )
@@ -207,13 +211,13 @@ class Balls:
         force = self.loads(v, w).force
         if not force.max() > 0.0:
             return inf
-        inner, outer = self._ball_ratings()
+        inner, outer = self.ball_ratings()
         on_inner = np.mean(force[:, 0] ** 3.0) ** (1.0 / 3.0)  # it turns under the load
         on_outer = np.mean(force[:, 1] ** (10.0 / 3.0)) ** 0.3  # it stands
         worn = (on_inner / inner) ** (10.0 / 3.0) + (on_outer / outer) ** (10.0 / 3.0)
         return float(worn**-0.9)
 
-    def _ball_ratings(self) -> tuple[float, float]:
+    def ball_ratings(self) -> tuple[float, float]:
         """Loads [N] of one ball that inner and outer race bear for 10^6 revolutions."""
         b = self.bearing
         angle = b.nominal_contact_angle
@@ -227,7 +231,7 @@ class Balls:
         return per_ball[0] * (1.0 + share) ** 0.3, per_ball[1] * (1.0 + 1.0 / share) ** 0.3
 
 
-def _spring(
+def spring(
     line: np.ndarray, length: float, contact: PointContact
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Energy (Z,), force (2, Z) along its line, and stiffness (Z, 2, 2) of one contact.

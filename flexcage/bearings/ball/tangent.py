@@ -53,20 +53,21 @@ def linearise(t, y, yd, data):
     for i in range(at.elements):
         qi, ui = q[of_element(i)], u[of_element(i)]
         set_frame(qi[2], fields(d.pose).F)
-        _race(i, qi, ui, inner_of(y, d), fields(d.inner), INNER_RACE, d, law)
-        _race(i, qi, ui, outer_of(y, d), fields(d.outer), OUTER_RACE, d, law)
+        onset = fields(d.memory).race[i]
+        race_slopes(i, qi, ui, inner_of(y, d), fields(d.inner), onset[INNER_RACE], d, law)
+        race_slopes(i, qi, ui, outer_of(y, d), fields(d.outer), onset[OUTER_RACE], d, law)
         if at.cages > 0:
-            _pocket(i, qi, ui, Rc, Vc, modes, d, law)
-        _inertia(i, qi[1], ui, d)
+            pocket_slopes(i, qi, ui, Rc, Vc, modes, d, law)
+        inertia_slopes(i, qi[1], ui, d)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], fields(d.scratch).out, TANGENT)
 
 
 @part
-def _race(i, qi, ui, ring, groove, race, d, law):
-    """Ball i on the race ``groove`` of a ring."""
+def race_slopes(i, qi, ui, ring, groove, onset, d, law):
+    """Ball i on the race ``groove`` of a ring, which it met at a speed ``onset``."""
     F, pair, work = fields(d.pose).F, fields(d.pair), fields(d.scratch)
     laws, sl = Laws(law[RACE_LAW], law[RACE_RUBS]), fields(d.slices).row[0]
-    ball = on_race(i, qi, ui, ring, race, d)
+    ball = on_race(i, qi, ui, ring, onset, d)
     if not groove_tangent(ball, groove, laws, sl, pair, work.sums):
         return
     moves = work.S
@@ -87,7 +88,7 @@ def _relative_motion(ball, ui, r):
 
 
 @part
-def _pocket(i, qi, ui, Rc, Vc, modes, d, law):
+def pocket_slopes(i, qi, ui, Rc, Vc, modes, d, law):
     F, pair, work, pw = fields(d.pose).F, fields(d.pair), fields(d.scratch), fields(d.pocket_work)
     laws, sl = Laws(law[POCKET_LAW], law[POCKET_RUBS]), fields(d.slices).row[0]
     ball, data, wrench = in_pocket(i, qi, ui, Rc, Vc, d), fields(d.pocket), pair.wrench
@@ -111,7 +112,7 @@ def _pocket(i, qi, ui, Rc, Vc, modes, d, law):
 
 
 @part
-def _inertia(i, r, ui, d):
+def inertia_slopes(i, r, ui, d):
     """Of the ball itself in its orbiting frame, and its drag."""
     bodies, K, C = fields(d.bodies), fields(d.tangent).Krr[i], fields(d.tangent).Crr[i]
     mass, inertia, orbit = bodies.element[MASS], bodies.element[AXIAL], ui[2] / r

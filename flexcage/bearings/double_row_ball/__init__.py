@@ -24,5 +24,5 @@ FAMILY = Family(
     rubbing=None,
     shapes=None,
     inside=None,
-    rows_of="ball",
+    built_on="ball",
 )

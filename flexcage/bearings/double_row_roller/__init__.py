@@ -26,5 +26,5 @@ FAMILY = Family(
     rubbing=None,
     shapes=None,
     inside=None,
-    rows_of="cylindrical_roller",
+    built_on="cylindrical_roller",
 )  # fmt: skip

@@ -7,6 +7,7 @@ forces, and with their exact derivatives. Nothing else here knows balls from rol
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -52,6 +53,9 @@ class ElementLoads:
     friction: np.ndarray  # (Z, 2) coefficient that the gyroscopic moment asks of each race
     # (Z,) N that ribs carry through an element towards +x; None without ribs that do
     axial: np.ndarray | None = None
+    # (Z,) N on each arc of races that have two, by name: "inner -x" is that at -x of the inner
+    # race's middle; None of races of one arc. All else is then of the arc that bears most
+    arcs: Mapping[str, np.ndarray] | None = None
 
 
 class Elements(Protocol):

@@ -163,6 +163,8 @@ def _element_note(s: StaticState) -> str:
     note = (
         "Q force, p largest pressure, a and b half of the contact across and in rolling direction"
     )
+    if s.elements.arcs is not None:
+        note += ", both of the arc of a race that bears most"
     if s.elements.axial is not None:
         note += ", axial force that ribs carry through a roller towards +x"
     if s.speed != 0.0:
@@ -173,7 +175,9 @@ def _element_note(s: StaticState) -> str:
 def _element_lines(s: StaticState) -> list[list[str]]:
     e = s.elements
     balls = bool(np.isfinite(e.edge).any() or np.nanmax(np.abs(e.angle), initial=0.0) > 0.0)
-    names = ["element", "azimuth, deg", "Q inner, N", "Q outer, N"]
+    forces = list(e.force.T) if e.arcs is None else list(e.arcs.values())
+    names = ["element", "azimuth, deg"]
+    names += [f"Q {name}, N" for name in (("inner", "outer") if e.arcs is None else e.arcs)]
     if balls:
         names += ["angle i, deg", "angle o, deg"]
     names += ["p inner, MPa", "p outer, MPa", "a inner, mm", "b inner, mm"]
@@ -184,7 +188,7 @@ def _element_lines(s: StaticState) -> list[list[str]]:
         names += ["Mg, N mm", "friction"] if balls else []
     lines = [names]
     for k in range(len(e.azimuth)):
-        cells = [str(k), f"{degrees(e.azimuth[k]):.4g}", *(f"{q:.5g}" for q in e.force[k])]
+        cells = [str(k), f"{degrees(e.azimuth[k]):.4g}", *(f"{q[k]:.5g}" for q in forces)]
         if balls:
             cells += [_or_dash(degrees(a), ".3f") for a in e.angle[k]]
         cells += [f"{p / 1e6:.5g}" for p in e.pressure[k]]
