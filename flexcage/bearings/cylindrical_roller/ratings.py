@@ -17,7 +17,6 @@ from flexcage.geometry.bearing import EquivalentLoad
 # 20 entries of ISO 281's table of f_c come out to their last digit for 207.891 to 207.915 alone.
 _B_RADIAL = 207.9
 _LAMBDA_NU = 0.83  # stress concentration at edges and spread of quality, radial roller bearings
-_B_M = 1.1  # ISO 281: today's steel and manufacture, cylindrical roller bearings
 
 
 def static_rating(bearing: RollerBearing) -> float:
@@ -43,7 +42,7 @@ def dynamic_rating(bearing: RollerBearing) -> float:
     """ISO 281, b_m f_c Lwe^7/9 Z^3/4 Dw^29/27."""
     length, diameter = bearing.effective_length * 1e3, bearing.roller_diameter * 1e3
     size = length ** (7.0 / 9.0) * bearing.roller_count**0.75 * diameter ** (29.0 / 27.0)
-    return _B_M * geometry_factor(bearing.gamma) * size
+    return bearing.rating_factor * geometry_factor(bearing.gamma) * size
 
 
 def equivalent_load(bearing: RollerBearing, radial: float, axial: float) -> EquivalentLoad:
@@ -53,8 +52,8 @@ def equivalent_load(bearing: RollerBearing, radial: float, axial: float) -> Equi
         return EquivalentLoad(nan, 1.0, nan, 10.0 / 3.0)
     if axial != 0.0:
         raise InputError(
-            f"load.axial is {axial:g} N, but ISO 281 rates cylindrical roller bearings for radial "
-            "load alone; leave it out.",
+            f"load.axial is {axial:g} N, but ISO 281 rates {bearing.kind}s for radial load "
+            "alone; leave it out.",
             where="load.axial",
         )
     return EquivalentLoad(radial, 1.0, 0.0, 10.0 / 3.0)
