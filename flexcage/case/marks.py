@@ -59,7 +59,7 @@ def _sentence(outline: Outline, row: dict[str, str]) -> str:
 
 def _cage(outline: Outline, row: dict[str, str]) -> MarkedCage | None:
     """The cage that a mark names, if flexcage has such a one for bearings of this type."""
-    column = "roller_cage" if outline.type == "cylindrical_roller" else "ball_cage"
+    column = "ball_cage" if outline.type.endswith("ball") else "roller_cage"
     kind = row.get(column, "")
     if outline.type == "angular_contact_ball":
         kind = _ON_SHOULDERS.get(kind, kind)

@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 _HAS = (
-    "flexcage has none: it has deep groove and angular contact ball bearings, and cylindrical "
-    "roller bearings, single-row"
+    "flexcage has none: it has deep groove and angular contact ball bearings, cylindrical roller "
+    "and needle roller bearings, single-row"
 )
 # ISO 15 and makers' catalogues (SKF, Schaeffler, NSK): first digits and letters of designations
 # without spaces, dashes and strokes, and what such a bearing is
@@ -24,7 +24,9 @@ _DESIGNATIONS = {
     r"(3[0238]|5[23])\d\d([A-Z].*)?": "a double row angular contact ball bearing",
     r"4[23]\d\d([A-Z].*)?": "a double row deep groove ball bearing",
     r"QJF?\d.*": "a four-point contact ball bearing",
-    r"(NK|NKI|NKS|NKIS|NA|RNA|HK|BK|NKIA|NKIB|NKX|NKXR|AXK|AXW|K)\d.*": "a needle roller bearing",
+    r"(NKIA|NKIB|NKX|NKXR)\d.*": "a needle roller bearing combined with a ball bearing",
+    r"(AXK|AXW)\d.*": "a thrust needle roller bearing",
+    r"K\d.*": "a needle roller and cage assembly, without rings",
     r"(NNCF|NNCL|NNC|NNF|SL0\d|SL1850)\d.*": "a double row full complement cylindrical roller "
     "bearing",
     r"RSL1[89]\d.*": "a full complement cylindrical roller bearing without an outer ring",
@@ -44,7 +46,6 @@ _NAMES = {
     r"self.?align.*": "self-aligning bearings",
     r"(double|two|multi|four).?row.*|duplex.*": "bearings of several rows",
     r"(four|three).?point.*|qj": "four-point contact bearings",
-    r"needle.*": "needle roller bearings",
     r"(cross|toroid|carb|insert|slewing|linear|plain|journal|magnetic|slide).*": "such bearings",
 }
 _CAGELESS = re.compile(r"full.?complement.*|cageless", re.IGNORECASE)
