@@ -51,6 +51,11 @@ def find(text: str) -> Entry:
         raise _refused(text, f"names two bearings; give one, as in: flexcage new {other}")
     if not found or found.bare not in _ratings():
         raise _not_found(text, found)
+    if "needle" in series()[found.series]["type"] and any("RS" in mark for mark in found.marks):
+        raise _refused(
+            text, "has seals, which take their place from the needles and lower the ratings; give "
+            f'your maker\'s: flexcage new {found.bare} --dynamic "..." --static "..."',
+        )  # fmt: skip
     entry = _entry(found)
     source = entry.source
     if plain(found.bare) not in plain(text):

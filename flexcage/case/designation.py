@@ -13,6 +13,7 @@ from flexcage.case.catalogues import rows
 SEPARATORS = r"[\s_/.,-]+"
 GROUPS = ("C2", "CN", "C3", "C4", "C5")  # of radial clearance, ISO 5753-1
 _BORE = re.compile(r"(\D*\d{2,3})\s*/\s*(\d{1,4})(?!\d)(.*)")  # "62/22", where it has no code
+_TWO_SIZES = re.compile(r"(NKI?)\s*(\d{1,3}\s*/\s*\d\d)(.*)|(HK|BK|HN)\s*(\d{4})(.*)")
 _TOGETHER = re.compile(r"(P[56])([2-5])")  # P63 is P6 and C3
 _FULL = "VH"  # of a full complement
 _SPINDLES = {"E": "25"}  # what Schaeffler means by a suffix of its bearings B, HCB and XCB
@@ -34,7 +35,8 @@ class Designation:
 
     @property
     def number(self) -> str:
-        """Series and bore code; of a bore without a code, that in mm behind a stroke."""
+        """Series and bore code; of a bore without a code, that in mm behind a stroke; of needle
+        roller bearings bore and width in mm."""
         return f"{self.series}{self.code}"
 
     @property
@@ -62,6 +64,8 @@ def read(text: str) -> Designation | None:
     beside its number that has no meaning here."""
     parts = [part for part in re.split(SEPARATORS, text.upper()) if part]
     name = "".join(parts)
+    if sizes := _TWO_SIZES.fullmatch(text.strip().upper()):
+        return _of_two_sizes(*(group for group in sizes.groups() if group is not None))
     if bore := _BORE.fullmatch(text.strip().upper()):
         return _of_a_bore(*bore.groups())
     cuts = {len("".join(parts[:k])) for k in range(1, len(parts))}
@@ -89,6 +93,15 @@ def _of_a_bore(before: str, size: str, after: str) -> Designation | None:
     """A designation with a bore in mm behind a stroke, as 62/22."""
     found = read(f"{before}00{after}")
     return replace(found, code=f"/{size}") if found and found.code == "00" else None
+
+
+def _of_two_sizes(own: str, code: str, after: str) -> Designation:
+    """A needle roller bearing's designation, with bore and width in mm in place of a code."""
+    marks, unknown = _marks_of([part for part in re.split(SEPARATORS, after) if part])
+    return Designation(
+        prefix="", series=own, code=re.sub(r"\s", "", code), angle="", degrees="", marks=marks,
+        unknown=unknown,
+    )  # fmt: skip
 
 
 def unknown_part(text: str) -> tuple[str, str] | None:

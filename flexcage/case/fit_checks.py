@@ -28,6 +28,8 @@ def find_in_fit(case: LoadedSections) -> Iterator[Finding]:
             f"[fit] is given, but a {bearing.kind} does not say how its races follow (its type's "
             "in_place); leave it out.",
         )
+    if refusal := bearing.fit_refusal(fit):
+        yield "fit.housing", refusal
     for seat in ("shaft", "housing"):
         key, code = f"{seat}_interference", getattr(fit, seat)
         if code and getattr(fit, key) is not None:
@@ -79,7 +81,7 @@ def questioned_fit(case: LoadedSections) -> Iterator[str]:
         )
     for name, grip in (("inner ring", mounting.inner), ("outer ring", mounting.outer)):
         k = mounting.taken
-        if grip.interference[k] > 0.0 and grip.operating[k] <= 0.0:
+        if not grip.is_race and grip.interference[k] > 0.0 and grip.operating[k] <= 0.0:
             yield (
                 f"The {name} loses its grip: of an interference of {um(grip.interference[k])} "
                 f"{um(grip.operating[k])} are left in operation; warmth and speed take the rest."

@@ -62,7 +62,7 @@ def _sentence(outline: Outline, row: dict[str, str]) -> str:
 def _cage(outline: Outline, row: dict[str, str]) -> MarkedCage | None:
     """The cage that a mark names, if flexcage has such a one for bearings of this type."""
     spec: Any = BEARING_TYPES[outline.type]
-    kind = row.get(f"{spec.element}_cage", "")
+    kind = row.get("ball_cage" if spec.element == "ball" else "roller_cage", "")
     if outline.type == "angular_contact_ball":
         kind = _ON_SHOULDERS.get(kind, kind)
     if not kind:

@@ -28,6 +28,7 @@ from flexcage.geometry.other_kinds import kind_of, named_kind
 
 if TYPE_CHECKING:
     from flexcage.geometry.fits.changed import Changed
+    from flexcage.geometry.fits.spec import Fit
     from flexcage.geometry.materials import Material
 
 _MISSING = object()
@@ -172,6 +173,15 @@ class Bearing:
     def clearance(self) -> float:
         """Radial internal clearance Pd [m]."""
         raise self._lacks("clearance")
+
+    @property
+    def has_inner_ring(self) -> bool:
+        """Is there one? Without it elements run on the shaft, whose diameter is the bore."""
+        return True
+
+    def fit_refusal(self, fit: Fit) -> str:
+        """Why it cannot sit as a fit says, in words; empty where it can."""
+        return ""
 
     @property
     def race_diameters(self) -> tuple[float, float]:

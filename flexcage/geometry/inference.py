@@ -128,6 +128,7 @@ class Candidate:
     bearing: Bearing
     reasons: Mapping[str, str]
     unlikely: float  # what speaks against it beside the ratings
+    least_factor: float = MAKERS_FACTOR[0]  # of ISO 281's C, at which makers rate such bearings
 
     @property
     def static_error(self) -> float:
@@ -141,14 +142,14 @@ class Candidate:
 
     @property
     def misfit(self) -> float:
-        low, usual = 1.0, USUAL_FACTOR
+        low, usual = self.least_factor, USUAL_FACTOR
         below, above = log(low / self.makers_factor), log(self.makers_factor / usual)
         off = max(below / 0.02, above / 0.05, 0.0)  # makers rate higher, but never lower
         return (self.static_error / 0.01) ** 2 + off**2 + self.unlikely
 
     def fits(self, static_tolerance: float) -> bool:
         """Do its ratings come near those of the catalogue?"""
-        low, high = MAKERS_FACTOR
+        low, high = self.least_factor, MAKERS_FACTOR[1]
         factor = self.makers_factor
         return (
             abs(self.static_error) <= static_tolerance
@@ -200,7 +201,7 @@ def _none_fits(candidates: Sequence[Candidate]) -> InputError:
     best = min(candidates, key=lambda c: c.misfit)
     outline, bearing = best.outline, best.bearing
     static, dynamic = bearing.rating_names
-    low, high = MAKERS_FACTOR
+    low, high = best.least_factor, MAKERS_FACTOR[1]
     return InputError(
         f"No internal geometry of these dimensions gives {static} = "
         f"{_kn(outline.static_rating)} and {dynamic} = {_kn(outline.dynamic_rating)}: the "

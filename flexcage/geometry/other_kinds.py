@@ -31,7 +31,9 @@ _DESIGNATIONS = {
     r"(1[23]|2[23])\d\d([A-Z].*)?": "a self-aligning ball bearing",
     r"(3[0238]|5[23])\d\d([A-Z].*)?": "a double row angular contact ball bearing",
     r"4[23]\d\d([A-Z].*)?": "a double row deep groove ball bearing",
-    r"(NK|NKI|NKS|NKIS|NA|RNA|HK|BK|NKIA|NKIB|NKX|NKXR|AXK|AXW|K)\d.*": "a needle roller bearing",
+    r"(NKIA|NKIB|NKX|NKXR)\d.*": "a needle roller bearing combined with a ball bearing",
+    r"(AXK|AXW)\d.*": "a thrust needle roller bearing",
+    r"K\d.*": "a needle roller and cage assembly, without rings",
     r"(NNCF|NNCL|NNC|NNF|SL0\d|SL1850)\d.*": "a double row full complement cylindrical roller "
     "bearing",
     r"RSL1[89]\d.*": "a full complement cylindrical roller bearing without an outer ring",
@@ -48,7 +50,6 @@ _NAMES = {
     r".*thrust.*": "thrust bearings",
     r"(spherical|barrel).*": "spherical roller bearings",
     r"(double|two|multi|four).?row.*|duplex.*": "such bearings of several rows",
-    r"needle.*": "needle roller bearings",
     r"(cross|toroid|carb|insert|slewing|linear|plain|journal|magnetic|slide).*": "such bearings",
 }
 _CAGELESS = re.compile(r"full.?complement.*|cageless", re.IGNORECASE)

@@ -182,7 +182,10 @@ def test_dimensions_reach_a_bore_of_200_mm():
         bore, outside, width = (
             float(row[f"{key}_mm"]) for key in ("bore", "outside_diameter", "width")
         )
-        assert bore < outside and width < outside
+        assert bore < outside
+        if not row["diameter_series"].isdigit():
+            continue  # needle roller bearings, which are as wide as they like
+        assert width < outside
         sizes.setdefault(row["diameter_series"], []).append((bore, outside, width))
     for name, found in sizes.items():
         assert found == sorted(found), name

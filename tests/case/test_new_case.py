@@ -3,6 +3,7 @@ and one sentence for what cannot be."""
 
 import re
 from functools import cache
+from itertools import filterfalse
 from math import cos
 
 import pytest
@@ -145,7 +146,8 @@ def test_every_entry_gives_a_case_that_fits_its_ratings(designation):
     bearing, outline = case.bearing, made.outline
     assert bearing == made.chosen.bearing and bearing.designation == designation
     assert bearing.static_rating == pytest.approx(outline.static_rating, rel=0.0305)
-    assert 0.97 <= outline.dynamic_rating / bearing.dynamic_rating <= 1.25
+    least = 0.89 if designation.startswith("HN") else 0.97  # what makers rate full cups at
+    assert least <= outline.dynamic_rating / bearing.dynamic_rating <= 1.25
     if bearing.type == "deep_groove_ball":
         angle = filling_angle(bearing.ball_count, bearing.ball_diameter, bearing.pitch_diameter)
         assert angle <= 3.404  # 195 degrees
@@ -163,7 +165,8 @@ def test_static_ratings_are_within_two_percent_but_where_whole_numbers_forbid():
 def test_series_share_boundary_dimensions():
     """ISO 15: bore codes 00 to 03 are 10, 12, 15 and 17 mm, others five times the code."""
     bores = {"00": 10.0, "01": 12.0, "02": 15.0, "03": 17.0}
-    for designation in catalogue.designations():
+    needles = re.compile(r"(NKI?|HK|BK|HN|R?NA)\d.*")
+    for designation in filterfalse(needles.match, catalogue.designations()):
         outline = catalogue.find(designation).outline
         code = re.sub(
             r"^(N(CF|JG)[23]\d|(N|NU|NJ|NUP)(10|2|3)|[67]\d|3[02]\d)|[A-Z]+$", "", designation
@@ -330,7 +333,8 @@ def test_makers_suffixes_are_read_and_each_is_explained(designation, same, notes
         ("22208 E", "a spherical roller bearing"),
         ("29412", "a spherical roller thrust bearing"),
         ("81105 TN", "a cylindrical roller thrust bearing"),
-        ("NK 20/16", "a needle roller bearing"),
+        ("NKX 20", "a needle roller bearing combined with a ball bearing"),
+        ("AXK 2035", "a thrust needle roller bearing"),
         ("1205 ETN9", "a self-aligning ball bearing"),
         ("2205", "a self-aligning ball bearing"),
         ("3205 A", "a double row angular contact ball bearing"),

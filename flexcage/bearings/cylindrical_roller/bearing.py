@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import pi
@@ -25,7 +25,7 @@ from flexcage.geometry.film import Film, Oil, both_races, line_film, rolling_ent
 from flexcage.geometry.life.iso281 import ROLLERS, Endurance
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.other_kinds import SURROUNDINGS
-from flexcage.geometry.rollers import RollerProfile
+from flexcage.geometry.rollers import B_M, RollerProfile
 from flexcage.geometry.spall import BY_RACE, Spall
 
 if TYPE_CHECKING:
@@ -62,6 +62,8 @@ class RollerBearing(Bearing):
     element: ClassVar[str] = "roller"
     family: ClassVar[str] = "cylindrical_roller"
     endurance: ClassVar[Endurance | None] = ROLLERS
+    rating_factor: ClassVar[float] = B_M  # of ISO 281
+    cage_between_ribs: ClassVar[bool] = False  # along the axis: it faces the races, not the ribs
     elsewhere: ClassVar[Mapping[str, str]] = {
         "(inner_|outer_)?(ribs?|flanges?)(_.*)?": BY_RIBS,
         **BY_RACE,
@@ -219,6 +221,14 @@ class RollerBearing(Bearing):
         assert diameter is not None and gap is not None  # see ``checks``
         return designs.Ribs(diameter, gap, self._counter_sides)
 
+    def cage_ribs(self, ring: str) -> designs.Ribs | None:
+        """Those of the ring that a cage faces across the axis."""
+        return None if self.cage_between_ribs else self.ribs(ring)
+
+    def impossible(self) -> Iterator[tuple[str, str]]:
+        """What else its type cannot have: where, and in a sentence."""
+        yield from ()
+
     @property
     def _counter_sides(self) -> tuple[bool, bool]:
         """Sides of the counter ribs. A single one of the inner ring pushes the rollers the way of
@@ -241,7 +251,7 @@ class RollerBearing(Bearing):
     @property
     def guides(self) -> Mapping[str, str]:
         own = {ring: f"the {ring} ring's {ribs.name}" for ring in designs.RINGS
-               if (ribs := self.ribs(ring))}  # fmt: skip
+               if (ribs := self.cage_ribs(ring))}  # fmt: skip
         return {**super().guides, **own}
 
     def free_axially(self, loaded: bool) -> bool:
@@ -263,17 +273,22 @@ class RollerBearing(Bearing):
             f'"{towards}" turns it round, and the design NUP carries both'
         )
 
+    @property
+    def ring_bore(self) -> float:
+        """Bore [m] of what lies inside the inner race: the ring, or without it the solid shaft."""
+        return self.bore if self.has_inner_ring else 0.0
+
     @cached_property
     def inner_ring_mass(self) -> float:
         """Inner ring as a hollow cylinder from bore to race, without ribs [kg]."""
-        area = 0.25 * pi * (self.inner_race_diameter**2 - self.bore**2)
+        area = 0.25 * pi * (self.inner_race_diameter**2 - self.ring_bore**2)
         return self.material.density * area * self.width
 
     @cached_property
     def inner_ring_inertia(self) -> tuple[float, float]:
         """Axial and transverse moments of inertia of that hollow cylinder [kg m^2]."""
         return hollow_cylinder_inertia(
-            self.inner_ring_mass, self.bore, self.inner_race_diameter, self.width
+            self.inner_ring_mass, self.ring_bore, self.inner_race_diameter, self.width
         )
 
     @cached_property

@@ -10,7 +10,7 @@ from math import nan
 from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
 from flexcage.core.errors import InputError
 from flexcage.geometry.bearing import EquivalentLoad
-from flexcage.geometry.rollers import B_M, LIFE_EXPONENT, geometry_factor
+from flexcage.geometry.rollers import LIFE_EXPONENT, geometry_factor
 
 
 def static_rating(bearing: RollerBearing) -> float:
@@ -23,7 +23,7 @@ def dynamic_rating(bearing: RollerBearing) -> float:
     """ISO 281, b_m f_c Lwe^7/9 Z^3/4 Dw^29/27."""
     length, diameter = bearing.effective_length * 1e3, bearing.roller_diameter * 1e3
     size = length ** (7.0 / 9.0) * bearing.roller_count**0.75 * diameter ** (29.0 / 27.0)
-    return B_M * geometry_factor(bearing.gamma) * size
+    return bearing.rating_factor * geometry_factor(bearing.gamma) * size
 
 
 def equivalent_load(bearing: RollerBearing, radial: float, axial: float) -> EquivalentLoad:
@@ -33,8 +33,8 @@ def equivalent_load(bearing: RollerBearing, radial: float, axial: float) -> Equi
         return EquivalentLoad(nan, 1.0, nan, LIFE_EXPONENT)
     if axial != 0.0:
         raise InputError(
-            f"load.axial is {axial:g} N, but ISO 281 rates cylindrical roller bearings for radial "
-            "load alone; leave it out.",
+            f"load.axial is {axial:g} N, but ISO 281 rates {bearing.kind}s for radial load "
+            "alone; leave it out.",
             where="load.axial",
         )
     return EquivalentLoad(radial, 1.0, 0.0, LIFE_EXPONENT)

@@ -16,7 +16,7 @@ def clearance_note(mounting: Mounting) -> str:
     parts = [
         f"Radial clearance in um{turning}: least and largest are of the limits of all tolerances, "
         f"of which the bearing has the {taken} (fit.at)",
-        f"Inner ring on its shaft: {_grip(mounting.inner, mounting.taken)}",
+        _inner(mounting.inner, mounting.taken),
         f"Outer ring in its housing: {_grip(mounting.outer, mounting.taken)}",
     ]
     if mounting.angles is not None and mounting.approach is not None:
@@ -36,6 +36,12 @@ def clearance_lines(mounting: Mounting) -> list[list[str]]:
     return lines + [
         [part.title, *(_column(part.values[k]) for k in kept)] for part in mounting.parts
     ]
+
+
+def _inner(grip: Grip, k: int) -> str:
+    if grip.is_race:
+        return f"Shaft, which is the inner race: {um(grip.interference[k])} beyond its nominal size"
+    return f"Inner ring on its shaft: {_grip(grip, k)}"
 
 
 def _grip(grip: Grip, k: int) -> str:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -98,8 +99,7 @@ class Rows:
 
     def loads(self, v: np.ndarray, w: np.ndarray) -> ElementLoads:
         each = [row.loads(v[own], w[own]) for row, own in zip(self.rows, self._spans)]
-        names = [n for n in ElementLoads.__dataclass_fields__ if getattr(each[0], n) is not None]
-        return ElementLoads(**{name: _joined(each, name) for name in names})
+        return ElementLoads(**{name: _joined(each, name) for name in _lists(each[0])})
 
     def check(self, loads: ElementLoads) -> None:
         for row, own in zip(self.rows, self._spans):
@@ -115,12 +115,17 @@ class Rows:
         return float(worn ** (-1.0 / self.exponent)) if worn else float(np.inf)
 
 
-def _joined(each: Sequence[Response] | Sequence[ElementLoads], name: str) -> np.ndarray:
+def _lists(loads: ElementLoads) -> list[str]:
+    """Names of what these loads hold of every element."""
+    names = ElementLoads.__dataclass_fields__
+    return [name for name in names if isinstance(getattr(loads, name), np.ndarray)]
+
+
+def _joined(each: Sequence[Response] | Sequence[ElementLoads], name: str) -> Any:
     return np.concatenate([getattr(one, name) for one in each])
 
 
 def _of_row(loads: ElementLoads, own: slice, sense: float) -> ElementLoads:
     """Loads of a row's elements as its own bearing has them."""
-    names = [n for n in ElementLoads.__dataclass_fields__ if getattr(loads, n) is not None]
-    found = ElementLoads(**{name: getattr(loads, name)[own] for name in names})
-    return replace(found, angle=sense * found.angle)
+    found: dict[str, Any] = {name: getattr(loads, name)[own] for name in _lists(loads)}
+    return ElementLoads(**{**found, "angle": sense * found["angle"]})
