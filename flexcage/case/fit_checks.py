@@ -68,13 +68,14 @@ def questioned_fit(case: LoadedSections) -> Iterator[str]:
     if mounting is None:
         return
     left = mounting.part("operating").values
-    if mounting.operating < 0.0 and not fit.preload:
+    adjusted = mounting.approach is not None  # another bearing sets its clearance
+    if mounting.operating < 0.0 and not (fit.preload or adjusted):
         yield (
             f"The fit closes the clearance: {um(mounting.operating)} are left in operation, a "
             "preload; take a larger class of clearance (fit.clearance) or looser fits, or say that "
             "it is meant by fit.preload = true."
         )
-    elif left[0] < 0.0 and mounting.taken == MIDDLE and not fit.preload:
+    elif left[0] < 0.0 and mounting.taken == MIDDLE and not (fit.preload or adjusted):
         yield (
             f"Within its tolerances the fit may close the clearance: {um(left[0])} to "
             f'{um(left[2])} are left in operation; fit.at = "least" computes the tightest.'

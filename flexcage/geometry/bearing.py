@@ -192,9 +192,9 @@ class Bearing:
         """The bearing as fits, warmth and speed change it; types without it have no [fit]."""
         raise self._lacks("in_place")
 
-    def approach(self, mounted: Bearing) -> float | None:
-        """By how much [m] the inner ring of this bearing, ``mounted``, meets its elements earlier
-        along the axis; None of types without a place of first contact."""
+    def approach(self, mounted: Bearing, changed: Changed) -> float | None:
+        """By how much [m] the inner ring of this bearing, ``mounted`` and ``changed``, meets its
+        elements earlier along the axis; None of types without a place of first contact."""
         return None
 
     @property

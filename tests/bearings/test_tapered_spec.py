@@ -8,9 +8,10 @@ import pytest
 from tapered_bearings import BEARING, MM
 
 from flexcage import load_static
-from flexcage.bearings.tapered_roller.bearing import Frustum
+from flexcage.bearings.tapered_roller.frustum import Frustum
 from flexcage.bearings.tapered_roller.ratings import static_equivalent_load
 from flexcage.core.errors import InputError
+from flexcage.geometry.fits.changed import Changed
 from flexcage.geometry.kinematics import epicyclic
 from flexcage.static import solve_static
 
@@ -155,10 +156,38 @@ def case(**bearing):
         (case(cup_angle="14 deg"), "contact angle is that of the outer race"),
         (case(radial_clearance="10 um"), "give its preload as load.axial"),
         ({**case(), "load": {"axial": "-1 kN"}}, "towards +x alone, into the outer ring"),
-        ({**case(), "fit": {"shaft": "k5"}}, "does not say how its races follow"),
+        ({**case(), "fit": {"clearance": "C3"}}, "has no classes of tapered roller bearings"),
     ],
 )
 def test_what_a_case_cannot_have_is_said(table, words):
     with pytest.raises(InputError) as caught:
         solve_static(load_static(table))
     assert words in str(caught.value)
+
+
+def test_fits_bring_the_rings_together_by_a_wedge():
+    """Races and rollers that grow, rollers that rest on the inner race and its rib and touch the
+    outer race: contacts along their normals, solved for the rollers' and the ring's places."""
+    b, grown = BEARING, (12e-6, -5e-6, 3e-6)  # of inner race, outer race, rollers; diameters
+    changed = Changed(
+        inner_race=grown[0], outer_race=grown[1], element=grown[2], inner_strain=0.0,
+        outer_strain=0.0, initial=0.0, clearance=grown[1] - grown[0] - 2 * grown[2],
+    )  # fmt: skip
+    after = b.in_place(changed)
+    after.check()
+    assert after.roller_diameter - b.roller_diameter == pytest.approx(3e-6)
+    beta, eps, eta = b.axis_angle, b.half_angle, b.rib_angle
+    x, r = np.array([cos(beta), sin(beta)]), np.array([-sin(beta), cos(beta)])  # in (s, t)
+    inner, rib = np.array([-sin(eps), cos(eps)]), np.array([cos(eta), sin(eta)])
+    outer, more = np.array([sin(eps), cos(eps)]), 0.5 * grown[2] * cos(eps)
+    lifted = 0.5 * grown[0] * r
+    # unknown: the roller's place (2,), and how far the ring is along x
+    equations = np.array([
+        [*inner, -inner @ x], [*rib, -rib @ x], [*outer, 0.0],
+    ])  # fmt: skip
+    known = [inner @ lifted + more, rib @ lifted, 0.5 * grown[1] * cos(b.contact_angle) - more]
+    place = np.linalg.solve(equations, known)
+    assert b.approach(after, changed) == pytest.approx(-place[2], rel=2e-3)
+    told = solve_static(load_static({**case(), "fit": {"shaft": "n5", "housing": "P6"}}))
+    assert told.mounting.approach > 5e-6 and told.mounting.angles is None
+    assert not any("preload" in warning for warning in told.warnings)

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from flexcage.core.wings import FAMILIES as WING
+from flexcage.geometry.bearing import BEARING_TYPES
 
 ROOT = Path(__file__).parents[2]
 #: Rooms in which bearings touch and move; the others' tests take long, or know no family.
@@ -20,9 +21,9 @@ ROOMS = ("contacts", "solve", "system")
 
 @dataclass(frozen=True)
 class Left:
-    """A family that is left out: presets that want it and that do not, one of its specs, what its
-    tests have in their texts, answers of ``flexcage verify`` on it alone, and the families that are
-    built on it, which go with it."""
+    """A family that is left out: a preset that wants it, or its type of bearing, and one that does
+    not, one of its specs, what its tests have in their texts, and answers of ``flexcage verify`` on
+    it alone."""
 
     preset: str
     other: str
@@ -41,6 +42,10 @@ FAMILIES = {
         "N1013", "7010C-PI", "RollerBearing", "which is not registered",
         r"roller|n1013|\bnu\d|\bnj\d|window|crossbeam|bearing_runs|bearing_of|kernels import land",
         "roller*.py",
+    ),
+    "tapered_roller": Left(
+        "tapered_roller", "N1013", "TaperedRollerBearing",
+        "bearing.type 'tapered_roller' is not known", "tapered",
     ),
 }  # fmt: skip
 
@@ -90,11 +95,13 @@ def test_walls_hold(without):
 
 
 def test_the_other_family_remains_and_this_one_is_refused(without):
-    left = without.left
+    left, asked = without.left, f"flexcage.Case.from_preset('{without.left.preset}')"
+    if left.preset in BEARING_TYPES:
+        asked = f"flexcage.load_static({{'bearing': {{'type': '{left.preset}'}}}})"
     code = (
         f"import flexcage; flexcage.Case.from_preset('{left.other}').to_toml(); "
         f"assert '{left.spec}' not in dir(flexcage.spec)\n"
-        f"try: flexcage.Case.from_preset('{left.preset}')\n"
+        f"try: {asked}\n"
         "except flexcage.InputError as exc: print(exc)"
     )
     done = without(sys.executable, "-c", code)

@@ -23,6 +23,7 @@ TESTED = {
     "ex09_machine",
     "ex10_signals",
     "ex11_diagnosis",
+    "ex12_tapered",
 }
 
 
@@ -51,6 +52,14 @@ def test_rigid_against_flexible():
 def test_defect_sweep():
     first, _, last = example("ex03_defect_sweep").main(**{**SHORT, "solver.duration": "1 ms"})
     assert last / first == pytest.approx(0.05 / 0.01, rel=0.06)
+
+
+def test_tapered_example(capsys):
+    module = example("ex12_tapered")
+    still, fast = module.main(0.0, 12000.0)
+    assert still == pytest.approx(module.wedge()) and fast > 1.1 * still
+    assert module.loaded() == 15
+    assert "the rib bears" in capsys.readouterr().out
 
 
 def test_static(capsys):

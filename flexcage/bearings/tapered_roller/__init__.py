@@ -23,6 +23,7 @@ FAMILY = Family(
     figures=None,
     rubbing=None,
     shapes=None,
+    losses=lambda: slots.losses,
     inside=lambda: slots.inside,
     catalogue="flexcage.bearings.tapered_roller.catalogue",
 )

@@ -181,8 +181,9 @@ class TaperedRollers:
         return found
 
     def respond(self, v: np.ndarray, w: np.ndarray, share: float) -> Response:
-        m, depth, force = self.meeting, self.depths(v, w), self.forces(v, w)
-        slope = m.exponent * self.stiffness * depth ** (m.exponent - 1.0)
+        m, depth = self.meeting, self.depths(v, w)
+        yielding = self.stiffness * depth ** (m.exponent - 1.0)
+        force, slope = yielding * depth, m.exponent * yielding
 
         def stiffness(one: np.ndarray, other: np.ndarray) -> np.ndarray:
             return np.einsum("zk,ka,kb->zab", slope, one, other)

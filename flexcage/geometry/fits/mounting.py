@@ -55,8 +55,8 @@ class Mounting:
     """Clearance from before mounting to operation: ``parts`` add up to the last one, the clearance
     in operation. ``taken``: which of the three values the bearing then has (``fit.at``);
     ``changed``: what follows of it. ``angles``: free contact angle [rad] before and in operation,
-    and ``approach`` [m] by which the inner ring meets the balls earlier along the axis, of bearings
-    whose clearance is a contact angle; None otherwise."""
+    of bearings whose clearance is one, and ``approach`` [m] by which the inner ring meets the
+    elements earlier along the axis, of those that have a place of first contact; None otherwise."""
 
     parts: tuple[Part, ...]
     inner: Grip

@@ -19,12 +19,12 @@ def clearance_note(mounting: Mounting) -> str:
         _inner(mounting.inner, mounting.taken),
         f"Outer ring in its housing: {_grip(mounting.outer, mounting.taken)}",
     ]
-    if mounting.angles is not None and mounting.approach is not None:
+    if mounting.approach is not None:
+        meets = f"he inner ring meets its elements {um(mounting.approach)} earlier along the axis"
+        if mounting.angles is None:
+            return "\n".join([*parts, f"T{meets}"])
         before, after = (f"{degrees(angle):.4g} deg" for angle in mounting.angles)
-        parts.append(
-            f"Free contact angle {before} before mounting, {after} in operation: the inner ring "
-            f"meets its balls {um(mounting.approach)} earlier along the axis"
-        )
+        parts.append(f"Free contact angle {before} before mounting, {after} in operation: t{meets}")
     return "\n".join(parts)
 
 
