@@ -332,7 +332,6 @@ def test_makers_suffixes_are_read_and_each_is_explained(designation, same, notes
         ("2205", "a self-aligning ball bearing"),
         ("3205 A", "a double row angular contact ball bearing"),
         ("4205", "a double row deep groove ball bearing"),
-        ("QJ 208 MA", "a four-point contact ball bearing"),
         ("NNCF 5010 CV", "a double row full complement cylindrical roller bearing"),
         ("SL185010", "a double row full complement cylindrical roller bearing"),
         ("RSL183010", "a full complement cylindrical roller bearing without an outer ring"),
