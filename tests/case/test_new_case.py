@@ -162,7 +162,9 @@ def test_series_share_boundary_dimensions():
     bores = {"00": 10.0, "01": 12.0, "02": 15.0, "03": 17.0}
     for designation in catalogue.designations():
         outline = catalogue.find(designation).outline
-        code = re.sub(r"^(N(CF|JG)[23]\d|(N|NU|NJ|NUP)(10|2|3)|[67]\d)|[A-Z]+$", "", designation)
+        code = re.sub(
+            r"^(QJ\d|N(CF|JG)[23]\d|(N|NU|NJ|NUP)(10|2|3)|[67]\d)|[A-Z]+$", "", designation
+        )
         assert 1e3 * outline.bore == pytest.approx(bores.get(code, 5.0 * int(code)))
         assert outline.bore < outline.outside_diameter and catalogue.find(designation).source
     a, b, c = (catalogue.find(name).outline.boundary for name in ("6210", "7210 B", "n-210"))
