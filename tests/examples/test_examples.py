@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from flexcage import load_case, simulate
+from flexcage import load_case, load_static, simulate, solve_static
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SHORT = {"solver.duration": "6 ms", "mesh.fineness": "coarse"}
@@ -89,6 +89,19 @@ def test_nu210():
     run = simulate(load_case(EXAMPLES / "nu210.toml").replace(SHORT))
     assert run.summary["cage_speed"] * 30 / pi == pytest.approx(3000 * (1 - 11 / 70.5), rel=0.03)
     assert run.case.land.clearance == pytest.approx(0.25e-3)
+
+
+def test_qj208():
+    """Balls press all four arcs as the static solution has it."""
+    case = load_case(EXAMPLES / "qj208.toml").replace({**SHORT, "cage.model": "rigid"})
+    run = simulate(case)
+    arcs = run.dataset["arc_force"].max(["time", "element"])
+    due = solve_static(load_static(EXAMPLES / "qj208.toml")).elements.arcs
+    for race in ("inner", "outer"):
+        for side in ("-x", "+x"):
+            found = float(arcs.sel(race=race, arc=side))
+            assert found == pytest.approx(due[f"{race} {side}"].max(), rel=0.04)
+    assert run.summary["share_on_4_contacts"] > 0.5 and run.summary["energy_audit"] == "passed"
 
 
 def test_full_complement():
