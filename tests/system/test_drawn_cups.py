@@ -1,5 +1,5 @@
-"""Static solutions of needle roller bearings: long rollers in slices, and the wall of a drawn cup as
-an elastic ring in its housing."""
+"""Static solutions of needle roller bearings: long rollers in slices, and the wall of a drawn cup
+as an elastic ring in its housing."""
 
 from dataclasses import replace
 from functools import cache
