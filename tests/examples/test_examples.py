@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from flexcage import load_case, simulate
+from flexcage import load_case, load_static, simulate, solve_static
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SHORT = {"solver.duration": "6 ms", "mesh.fineness": "coarse"}
@@ -80,6 +80,14 @@ def test_nu210():
     run = simulate(load_case(EXAMPLES / "nu210.toml").replace(SHORT))
     assert run.summary["cage_speed"] * 30 / pi == pytest.approx(3000 * (1 - 11 / 70.5), rel=0.03)
     assert run.case.land.clearance == pytest.approx(0.25e-3)
+
+
+def test_hk2020():
+    """Five of 21 needles bear; the most loaded one 551 N, in the static solution."""
+    solution = solve_static(load_static(EXAMPLES / "HK2020.toml"))
+    force = solution.elements.force[:, 0]
+    assert (force > 0.0).sum() == 5
+    assert solution.largest_force == pytest.approx(551.2, abs=0.1)
 
 
 def test_full_complement():
