@@ -104,6 +104,14 @@ def test_qj208():
     assert run.summary["share_on_4_contacts"] > 0.5 and run.summary["energy_audit"] == "passed"
 
 
+def test_hk2020():
+    """Five of 21 needles bear; the most loaded one 551 N, in the static solution."""
+    solution = solve_static(load_static(EXAMPLES / "HK2020.toml"))
+    force = solution.elements.force[:, 0]
+    assert (force > 0.0).sum() == 5
+    assert solution.largest_force == pytest.approx(551.2, abs=0.1)
+
+
 def test_full_complement():
     """From pure rolling, rollers outside the loaded zone begin to slow each other down."""
     run = simulate(load_case(EXAMPLES / "n1013_full.toml").replace("solver.duration", "12 ms"))

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar
 
 from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
-from flexcage.core.spec import option, quantity
+from flexcage.core.spec import option
 from flexcage.core.units import mm
 from flexcage.geometry.bearing import type_name
 
@@ -38,9 +38,6 @@ class NeedleRollerBearing(RollerBearing):
     walls: ClassVar[tuple[float, float]] = (0.0, 1.0)  # m, of the outer ring at its race
 
     type: str = type_name("needle_roller")
-    bore: float = quantity(
-        "mm", doc="bearing bore d; without an inner ring that of the needles, F", above=0.0
-    )
     design: str = option("NU", choices=("NU",), doc="ribs: two on the outer ring")
 
     @property

@@ -62,7 +62,7 @@ class DoubleRowAngularContactBallBearing(RowFields, AngularContactBallBearing):
     def late(self) -> float:
         return 0.5 * self.axial_clearance
 
-    def approach(self, mounted: Bearing) -> float:
+    def approach(self, mounted: Bearing, changed: Changed) -> float | None:
         return 0.0  # its middle stays
 
     def in_place(self, changed: Changed) -> BallBearing:
