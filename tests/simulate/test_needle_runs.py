@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 from needle_rollers import CUP_CASE
 
-from flexcage.case import load_case
+from flexcage.cages.window.faces import pocket_size
+from flexcage.case import catalogue, load_case
+from flexcage.case.new import new_case
 from flexcage.simulate import simulate
-from flexcage.stages import bearing_in_motion, cage_mesh
+from flexcage.stages import bearing_in_motion, cage_mesh, cage_modes
 
 CAGED = """
 [cage]
@@ -64,6 +66,20 @@ def test_both_integrators_move_needles_alike():
     for name, within in (("race_force", 2e-3), ("inner_position", 2e-3), ("element_omega", 5e-3)):
         a, b = (ds[name].mean("time").values for ds in (one, other))
         assert np.abs(a - b).max() < within * np.abs(a).max(), name
+
+
+@pytest.mark.slow
+def test_a_needle_cage_is_meshed_reduced_and_bent():
+    """That of an HK2020: it ovalises alike both ways, and a bent crossbeam alters two pockets."""
+    entry = catalogue.find("HK2020")
+    case = load_case(new_case(entry.outline, entry.source).text).replace("mesh.fineness", "coarse")
+    found = cage_modes(case).frequency
+    assert found[0] == pytest.approx(found[1], rel=1e-6)
+    assert found[0] == pytest.approx(2680.0, rel=0.05)  # of the default mesh
+    bent = case.replace("defects", [{"type": "crossbeam", "crossbeam": 3, "displacement": "30 um"}])
+    mesh, radius = cage_mesh(bent), bent.bearing.pitch_radius
+    wide = [pocket_size(mesh, k, pitch_radius=radius)[0] for k in range(5)]
+    assert wide == pytest.approx([2.1e-3, 2.1e-3, 2.07e-3, 2.13e-3, 2.1e-3], abs=3e-6)
 
 
 def test_a_tilted_shaft_skews_needles_and_a_figure_says_so():
