@@ -9,6 +9,7 @@ from types import MappingProxyType
 
 from flexcage.core.wings import FAMILIES
 
+_HAS = "flexcage has none; 'flexcage keys bearing' lists the types that it has"
 _AS_TYPE = (
     "its internal geometry is not inferred: give that in a case as bearing.type '{}', for "
     "'flexcage static'"
@@ -99,7 +100,7 @@ def kind_of(designation: str) -> str:
         if re.fullmatch(pattern, designation.strip()[:4] if two_rows else name):
             if kind in _TYPES:
                 return f"is {kind}; {_AS_TYPE.format(_TYPES[kind])}"
-            return "" if kind in here else f"is {kind}; {_has()}"
+            return "" if kind in here else f"is {kind}; {_HAS}"
     return ""
 
 
@@ -110,16 +111,10 @@ def named_kind(name: str) -> str:
         return 'a bearing without a cage is one of these types, with model = "none" in [cage]'
     for pattern, kinds in _NAMES.items():
         if re.fullmatch(pattern, name.strip(), re.IGNORECASE):
-            return f"of {kinds} {_has()}"
+            return f"of {kinds} {_HAS}"
     return ""
 
 
 def _kinds() -> list[str]:
     """Kinds of bearings that all families have, in words."""
     return sorted(spec.kind for family in FAMILIES.values() for spec in family.types)
-
-
-def _has() -> str:
-    *kinds, last = _kinds()
-    first = f"{', '.join(f'{kind}s' for kind in kinds)} and " if kinds else ""
-    return f"flexcage has none: it has {first}{last}s"
