@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
-from flexcage.case.catalogues import rows
+from flexcage.case.catalogues import further, rows
 from flexcage.case.designation import Designation, plain, read, series, unknown_part
 from flexcage.case.marks import applied, rated_by_user
 from flexcage.core.binding import near_names, replacement_of
@@ -266,22 +266,10 @@ def _entry(found: Designation) -> Entry:
             outer_rib_diameter=_optional(row["outer_rib_mm"], "mm"),
             complement=made["complement"],
             left_out=(made["left_out"],) if made["left_out"] else (),
-            further=_further(row),
+            further={k: parse(f"{v} mm", "mm") for k, v in further("ratings", row).items()},
         ),
         source=_sources()[row["source"]],
     )  # fmt: skip
-
-
-def _further(row: dict[str, str]) -> dict[str, float]:
-    """Lengths [m] that only a family's own table has."""
-    own = set(row) - set(_columns())
-    return {key.removesuffix("_mm"): parse(f"{row[key]} mm", "mm") for key in own if row[key]}
-
-
-@cache
-def _columns() -> tuple[str, ...]:
-    """Columns of ratings that all bearings share."""
-    return tuple(next(iter(_all_rows().values())))
 
 
 def _optional(text: str, unit: str) -> float | None:

@@ -23,7 +23,7 @@ _DIMENSIONS = (
     ("--static", "static_rating", "kN", "basic static load rating C0"),
 )
 _FURTHER = (
-    ("--contact-angle", "contact_angle", "deg", "of an angular contact bearing, as '40 deg'"),
+    ("--contact-angle", "contact_angle", "deg", "of an angular contact bearing, or a tapered one"),
     ("--inner-race", "inner_race_diameter", "mm", "race diameter F under the rollers"),
     ("--outer-race", "outer_race_diameter", "mm", "race diameter E over the rollers"),
 )

@@ -324,3 +324,17 @@ def test_frequencies_are_those_of_cones_that_roll():
 def test_too_little_axial_load_for_the_radial_one_is_told():
     with pytest.raises(InputError, match="the bearing cannot bear this load"):
         solved(axial=0.0, radial=2000.0)
+
+
+def test_at_speed_a_least_axial_load_keeps_rollers_on_the_inner_race():
+    """Below it the rollers, thrown into the cup and out of it against the rib, push the ring off:
+    Q sin(alpha) = R cos(beta - eta), F_c = Q cos(alpha) + R sin(beta - eta), F = Z Q sin(alpha)."""
+    b, speed = BEARING, 12000 * RPM
+    e, rib = elements(speed=speed), BEARING.axis_angle - BEARING.rib_angle
+    outer = e.centrifugal / (cos(b.contact_angle) + sin(b.contact_angle) * tan(rib))
+    least = 17 * outer * sin(b.contact_angle)
+    assert 30.0 < least < 100.0
+    found = solved(axial=1.02 * least, speed=speed)
+    assert 0.0 < found.elements.force[:, 0].max() < 0.05 * outer
+    with pytest.raises(InputError, match="axial load towards"):
+        solved(axial=0.98 * least, speed=speed)

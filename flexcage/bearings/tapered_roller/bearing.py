@@ -73,25 +73,15 @@ class TaperedRollerBearing(Bearing):
         "deg", doc="half angle of the outer race, the contact angle of ISO 281", above=0.0,
         maximum=0.25 * pi,
     )  # fmt: skip
-    pitch_diameter: float = quantity(
-        "mm", doc="diameter Dpw of the circle of the rollers' middles", above=0.0
-    )
-    roller_diameter: float = quantity(
-        "mm", doc="mean diameter Dwe of a roller, at mid-length", above=0.0
-    )
+    pitch_diameter: float = quantity("mm", doc="diameter Dpw of the rollers' middles", above=0.0)
+    roller_diameter: float = quantity("mm", doc="mean diameter Dwe of a roller", above=0.0)
     roller_length: float = quantity("mm", doc="length Lw of a roller, overall", above=0.0)
     effective_length: float = quantity(
         "mm", doc="length Lwe of a roller without end chamfers", above=0.0
     )
     roller_count: int = option(doc="number Z of rollers", minimum=3)
-    rib_height: float = quantity(
-        "mm",
-        doc="height of the large rib over the inner race at the rollers' large ends",
-        above=0.0,
-    )
-    end_radius: float = quantity(
-        "mm", doc="radius of the sphere that a roller's large end is part of", above=0.0
-    )
+    rib_height: float = quantity("mm", doc="height of the large rib over the inner race", above=0.0)
+    end_radius: float = quantity("mm", doc="radius of the rollers' spherical large ends", above=0.0)
     profile: RollerProfile = option(RollerProfile(), doc="roller profile")
     material: Material = option(MATERIALS["GCr15"], doc="material of the rings, and of the rollers")
     element_material: Material | None = option(

@@ -9,14 +9,25 @@ from importlib import resources
 
 from flexcage.core.wings import FAMILIES
 
+_SHARED = "flexcage.case.catalogues"
+
 
 def rows(name: str) -> Iterator[dict[str, str]]:
     """Rows of a table, texts by the names of its columns."""
-    own = [family.catalogue for family in FAMILIES.values() if family.catalogue]
-    for package in ("flexcage.case.catalogues", *own):
-        file = resources.files(package) / f"{name}.csv"
-        if file.is_file():
-            yield from csv.DictReader(file.read_text("utf-8").splitlines())
+    for package in (_SHARED, *(f.catalogue for f in FAMILIES.values() if f.catalogue)):
+        yield from _table(package, name)
+
+
+def further(name: str, row: dict[str, str]) -> dict[str, str]:
+    """What a row of a family's own table has beyond the shared table of that name, in mm."""
+    shared = _table(_SHARED, name).fieldnames or ()
+    return {k.removesuffix("_mm"): v for k, v in row.items() if v and k not in shared}
+
+
+def _table(package: str, name: str) -> csv.DictReader[str]:
+    """A package's table, empty if it has none."""
+    file = resources.files(package) / f"{name}.csv"
+    return csv.DictReader(file.read_text("utf-8").splitlines() if file.is_file() else ())
 
 
 def clearance_limits(kind: str, bore: float, group: str) -> tuple[float, float] | None:
