@@ -51,6 +51,11 @@ def find(text: str) -> Entry:
         raise _refused(text, f"names two bearings; give one, as in: flexcage new {other}")
     if not found or found.bare not in _ratings():
         raise _not_found(text, found)
+    if "needle" in series()[found.series]["type"] and any("RS" in mark for mark in found.marks):
+        raise _refused(
+            text, "has seals, which take their place from the needles and lower the ratings; give "
+            f'your maker\'s: flexcage new {found.bare} --dynamic "..." --static "..."',
+        )  # fmt: skip
     entry = _entry(found)
     source = entry.source
     if plain(found.bare) not in plain(text):
@@ -261,9 +266,22 @@ def _entry(found: Designation) -> Entry:
             outer_rib_diameter=_optional(row["outer_rib_mm"], "mm"),
             complement=made["complement"],
             left_out=(made["left_out"],) if made["left_out"] else (),
+            further=_further(row),
         ),
         source=_sources()[row["source"]],
     )  # fmt: skip
+
+
+def _further(row: dict[str, str]) -> dict[str, float]:
+    """Lengths [m] that only a family's own table has."""
+    own = set(row) - set(_columns())
+    return {key.removesuffix("_mm"): parse(f"{row[key]} mm", "mm") for key in own if row[key]}
+
+
+@cache
+def _columns() -> tuple[str, ...]:
+    """Columns of ratings that all bearings share."""
+    return tuple(next(iter(_all_rows().values())))
 
 
 def _optional(text: str, unit: str) -> float | None:

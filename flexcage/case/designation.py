@@ -13,6 +13,7 @@ from flexcage.case.catalogues import rows
 SEPARATORS = r"[\s_/.,-]+"
 GROUPS = ("C2", "CN", "C3", "C4", "C5")  # of radial clearance, ISO 5753-1
 _BORE = re.compile(r"(\D*\d{2,3})\s*/\s*(\d{1,4})(?!\d)(.*)")  # "62/22", where it has no code
+_TWO_SIZES = re.compile(r"(NKI?)\s*(\d{1,3}\s*/\s*\d\d)(.*)|(HK|BK|HN)\s*(\d{4})(.*)")
 _TOGETHER = re.compile(r"(P[56])([2-5])")  # P63 is P6 and C3
 _FULL = "VH"  # of a full complement
 _SPINDLES = {"E": "25"}  # what Schaeffler means by a suffix of its bearings B, HCB and XCB
@@ -34,7 +35,8 @@ class Designation:
 
     @property
     def number(self) -> str:
-        """Series and bore code; of a bore without a code, that in mm behind a stroke."""
+        """Series and bore code; of a bore without a code, that in mm behind a stroke; of needle
+        roller bearings bore and width in mm."""
         return f"{self.series}{self.code}"
 
     @property
@@ -62,13 +64,16 @@ def read(text: str) -> Designation | None:
     beside its number that has no meaning here."""
     parts = [part for part in re.split(SEPARATORS, text.upper()) if part]
     name = "".join(parts)
+    if sizes := _TWO_SIZES.fullmatch(text.strip().upper()):
+        return _of_two_sizes(*(group for group in sizes.groups() if group is not None))
     if bore := _BORE.fullmatch(text.strip().upper()):
         return _of_a_bore(*bore.groups())
     cuts = {len("".join(parts[:k])) for k in range(1, len(parts))}
     for own, match in _numbers(name, cuts):
         row, end = series()[own], match.end()
         angle, degrees = _angle(name[end:], row, match["prefix"])
-        rest = end + len(angle)
+        firsts = _of_series(name[end + len(angle) :], own)
+        rest = end + len(angle) + len("".join(firsts))
         tokens = _tokens(name, rest, cuts)
         marks, unknown = _marks_of(tokens)
         joined = _marks_of([name[rest:]]) if unknown else ((), ())
@@ -79,7 +84,7 @@ def read(text: str) -> Designation | None:
             continue
         return Designation(
             prefix=match["prefix"], series=own, code=match["code"], angle=angle,
-            degrees=degrees, marks=marks, unknown=unknown,
+            degrees=degrees, marks=(*firsts, *marks), unknown=unknown,
         )  # fmt: skip
     return None
 
@@ -88,6 +93,15 @@ def _of_a_bore(before: str, size: str, after: str) -> Designation | None:
     """A designation with a bore in mm behind a stroke, as 62/22."""
     found = read(f"{before}00{after}")
     return replace(found, code=f"/{size}") if found and found.code == "00" else None
+
+
+def _of_two_sizes(own: str, code: str, after: str) -> Designation:
+    """A needle roller bearing's designation, with bore and width in mm in place of a code."""
+    marks, unknown = _marks_of([part for part in re.split(SEPARATORS, after) if part])
+    return Designation(
+        prefix="", series=own, code=re.sub(r"\s", "", code), angle="", degrees="", marks=marks,
+        unknown=unknown,
+    )  # fmt: skip
 
 
 def unknown_part(text: str) -> tuple[str, str] | None:
@@ -131,6 +145,18 @@ def _angle(rest: str, row: dict[str, str], prefix: str) -> tuple[str, str]:
     return best, known.get(best, "")
 
 
+def _of_series(rest: str, own: str) -> list[str]:
+    """Marks at the beginning of a text that mean something after numbers of one series alone."""
+    found: list[str] = []
+    known = [
+        m for m, row in meanings().items() if row.get("series") and own.startswith(row["series"])
+    ]
+    while fitting := [mark for mark in known if rest.startswith(mark)]:
+        found.append(max(fitting, key=len))
+        rest = rest.removeprefix(found[-1])
+    return found
+
+
 def _tokens(name: str, rest: int, cuts: set[int]) -> list[str]:
     """Texts between separators after a place in a name."""
     ends = sorted(cut for cut in cuts if cut > rest)
@@ -162,7 +188,7 @@ def _split(text: str) -> tuple[tuple[str, ...], str]:
     best: tuple[tuple[str, ...], str] = ((), text)
     if together := _TOGETHER.match(text):
         best = _better(best, (together[1], f"C{together[2]}"), text[together.end() :])
-    for mark in (*meanings(), *GROUPS):
+    for mark in (*(m for m, row in meanings().items() if not row.get("series")), *GROUPS):
         if text.startswith(mark):
             best = _better(best, (mark,), text[len(mark) :])
     return best
@@ -200,7 +226,8 @@ def suffixes() -> dict[str, str]:
 @cache
 def meanings() -> dict[str, dict[str, str]]:
     """By mark: its meaning, what there is instead where flexcage has no such thing, the types and
-    the material of cages, and the material of elements that it names."""
+    the material of cages, and the material of elements that it names; the series whose marks they
+    are, of those that one family's table has."""
     return {row["mark"]: row for row in rows("marks")}
 
 

@@ -28,6 +28,8 @@ def find_in_fit(case: LoadedSections) -> Iterator[Finding]:
             f"[fit] is given, but a {bearing.kind} does not say how its races follow (its type's "
             "in_place); leave it out.",
         )
+    if refusal := bearing.fit_refusal(fit):
+        yield "fit.housing", refusal
     for seat in ("shaft", "housing"):
         key, code = f"{seat}_interference", getattr(fit, seat)
         if code and getattr(fit, key) is not None:
@@ -66,20 +68,21 @@ def questioned_fit(case: LoadedSections) -> Iterator[str]:
     if mounting is None:
         return
     left = mounting.part("operating").values
-    if mounting.operating < 0.0 and not fit.preload:
+    adjusted = mounting.approach is not None  # another bearing sets its clearance
+    if mounting.operating < 0.0 and not (fit.preload or adjusted):
         yield (
             f"The fit closes the clearance: {um(mounting.operating)} are left in operation, a "
             "preload; take a larger class of clearance (fit.clearance) or looser fits, or say that "
             "it is meant by fit.preload = true."
         )
-    elif left[0] < 0.0 and mounting.taken == MIDDLE and not fit.preload:
+    elif left[0] < 0.0 and mounting.taken == MIDDLE and not (fit.preload or adjusted):
         yield (
             f"Within its tolerances the fit may close the clearance: {um(left[0])} to "
             f'{um(left[2])} are left in operation; fit.at = "least" computes the tightest.'
         )
     for name, grip in (("inner ring", mounting.inner), ("outer ring", mounting.outer)):
         k = mounting.taken
-        if grip.interference[k] > 0.0 and grip.operating[k] <= 0.0:
+        if not grip.is_race and grip.interference[k] > 0.0 and grip.operating[k] <= 0.0:
             yield (
                 f"The {name} loses its grip: of an interference of {um(grip.interference[k])} "
                 f"{um(grip.operating[k])} are left in operation; warmth and speed take the rest."

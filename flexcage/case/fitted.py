@@ -26,10 +26,11 @@ def mounting_of(bearing: Bearing, fit: Fit, drive: Drive) -> Mounting:
     speed = fastest(drive) if fit.at_speed is None else abs(fit.at_speed)
     found = mount(bearing, fit, _initial(bearing, fit), _walls(bearing), speed)
     after = bearing.in_place(found.changed)
-    approach = bearing.approach(after) if found.operating > 0.0 else None
+    approach = bearing.approach(after, found.changed)
     if approach is None:
         return found
-    angles = bearing.nominal_contact_angle, after.nominal_contact_angle
+    has = hasattr(bearing, "free_contact_angle")
+    angles = (bearing.nominal_contact_angle, after.nominal_contact_angle) if has else None
     return dataclasses.replace(found, angles=angles, approach=approach)
 
 

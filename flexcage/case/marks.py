@@ -4,10 +4,12 @@ say of a bearing: seals, the clearance, the cage, the material of its elements, 
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 from flexcage.case.catalogues import clearance_limits
 from flexcage.case.designation import Designation, meanings, prefixes
 from flexcage.core.errors import InputError
+from flexcage.geometry.bearing import BEARING_TYPES
 from flexcage.geometry.full_complement import CAGED, FILLED
 from flexcage.geometry.inference import ClearanceGroup, MarkedCage, Outline
 
@@ -59,8 +61,8 @@ def _sentence(outline: Outline, row: dict[str, str]) -> str:
 
 def _cage(outline: Outline, row: dict[str, str]) -> MarkedCage | None:
     """The cage that a mark names, if flexcage has such a one for bearings of this type."""
-    column = "roller_cage" if outline.type == "cylindrical_roller" else "ball_cage"
-    kind = row.get(column, "")
+    spec: Any = BEARING_TYPES[outline.type]
+    kind = row.get("ball_cage" if spec.element == "ball" else "roller_cage", "")
     if outline.type == "angular_contact_ball":
         kind = _ON_SHOULDERS.get(kind, kind)
     if not kind:

@@ -9,12 +9,13 @@ from dataclasses import dataclass, fields, replace
 from math import ceil, floor, log10
 from typing import Any
 
-from flexcage.bearings.family import inference_of
+from flexcage.bearings.family import in_motion, inference_of
 from flexcage.cages.cage_type import proposal_of
 from flexcage.case.case import load_case
 from flexcage.case.marked import of_mark, rolling, unmarked
 from flexcage.case.presets import NAMED
 from flexcage.case.sections import NO_CAGE
+from flexcage.case.static import load_static
 from flexcage.core.binding import default_of, did_you_mean, to_table
 from flexcage.core.errors import InputError, in_one_line
 from flexcage.core.units import describe
@@ -72,6 +73,8 @@ def new_case(outline: Outline, source: str, *, cage: str | None = None) -> NewCa
         return _without_cage(outline, source, inference, cage)
     candidates = [rolling(c) for c in ranked(inference.candidates(outline))]
     _check_cage(cage, candidates[0].bearing.element)
+    if not in_motion(BEARING_TYPES[outline.type]):
+        return _standing(outline, source, candidates)
     usual = inference.cages[outline.type]
     wanted = [None, outline.cage] if outline.cage and cage in (None, outline.cage.type) else [None]
     refused = None
@@ -147,6 +150,16 @@ def _without_cage(outline: Outline, source: str, inference: Inference, cage: str
     load_case(text)
     return NewCase(
         name=case_name(outline), text=text, outline=outline, source=source, chosen=chosen,
+        candidates=candidates,
+    )  # fmt: skip
+
+
+def _standing(outline: Outline, source: str, candidates: Sequence[Candidate]) -> NewCase:
+    """The case of a bearing of which there is a static solution alone."""
+    text = _text(outline, source, candidates[0], candidates, None)
+    load_static(text)
+    return NewCase(
+        name=case_name(outline), text=text, outline=outline, source=source, chosen=candidates[0],
         candidates=candidates,
     )  # fmt: skip
 
@@ -235,13 +248,15 @@ def _text(
     head = [f"# {in_one_line(line)}" for line in _findings(outline, source, chosen, candidates)]
     given = _reasons_of_outline(outline)
     load = "axial" if outline.contact_angle else "radial"
-    speed = _speed(bearing.pitch_diameter, caged=proposed is not None)
+    runs = in_motion(type(bearing))
+    caged = proposed is not None or not runs
+    speed = _speed(bearing.pitch_diameter, caged=caged)
     sections = [
         ("bearing", _entries(bearing, {"type": "", "designation": "", **given, **chosen.reasons})),
         ("cage", _cage(proposed)),
         ("drive", [(
             "speed", f'"{speed} rpm"',
-            "assumption: moderate" if proposed else "assumption: moderate without a cage",
+            "assumption: moderate" if caged else "assumption: moderate without a cage",
         )]),
         ("load", [(
             load, f'"{_two_digits(_LOAD * outline.dynamic_rating):g} N"',
@@ -252,10 +267,12 @@ def _text(
             "assumption: long enough for means and intervals",
         )]),
     ]  # fmt: skip
+    if not runs:
+        sections = [pair for pair in sections if pair[0] not in ("cage", "solver")]
     lines = [
         *head,
         "# Makers do not publish internal geometry: what is inferred or assumed is marked.",
-        f"# flexcage run {name}.toml",
+        f"# flexcage {'run' if runs else 'static'} {name}.toml",
         f'name = "{name}"',
     ]
     for section, entries in sections:

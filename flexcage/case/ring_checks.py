@@ -19,6 +19,12 @@ _LINE = 1e-6  # rad: two supports this near to a line through the axis hold acro
 
 def find_in_rings(case: StaticSections) -> Iterator[Finding]:
     """Supports that are missing, superfluous, or in each other's place."""
+    if case.inner_ring.bends and not case.bearing.has_inner_ring:
+        yield (
+            "inner_ring.ring",
+            "inner_ring.ring is 'flexible', but the bearing has no inner ring: its rollers run on "
+            "the shaft; leave it out, or give bearing.bore of an inner ring.",
+        )
     ring, where = case.outer_ring, "outer_ring.supports"
     if ring.seat not in SUPPORTED:
         if ring.supports:

@@ -147,6 +147,18 @@ def compiled(function: Any, signature: Any, options: dict[str, Any] = WITHOUT_NR
     return _compiled[key]
 
 
+def entry_of(kernel: Any) -> Any:
+    """What a kernel for one signature is in Python, for arguments that certainly fit it.
+
+    A kernel finds the types of its arguments at every call; of tuples of kernels that takes
+    milliseconds.
+    """
+    if not hasattr(kernel, "overloads"):
+        return kernel
+    (compiled_for,) = kernel.overloads.values()
+    return compiled_for.entry_point
+
+
 def cache_environment() -> dict[str, str]:
     """Environment variables by which another process finds the same cache, which can be written
     if there is any way."""

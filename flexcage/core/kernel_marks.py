@@ -23,6 +23,7 @@ from flexcage.core.type_texts import UnknownContent
 from flexcage.core.users_files import contents_key
 
 _PACKAGE = f"{__name__.partition('.')[0]}."
+_held: set[tuple[str, ...]] = set()  # stems, and where: what this process found once, it still has
 
 
 def _stem(what: str) -> str:
@@ -50,11 +51,14 @@ def own_kernels_cached(what: str) -> bool:
 
 def _marked(stem: str) -> bool:
     keys: dict[str, str] = {}
-    return any(
+    this = (stem, *map(str, kernel_folder.places))
+    if this not in _held and any(
         _holds(mark, keys)
         for place in kernel_folder.places
         for mark in sorted(place.glob(f"{stem}-*.mark"))
-    )
+    ):
+        _held.add(this)
+    return this in _held
 
 
 def mark_compiled(what: str) -> None:

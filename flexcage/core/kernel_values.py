@@ -17,6 +17,8 @@ from numba.extending import NativeValue, register_model, unbox
 
 from flexcage.core.type_texts import described
 
+_ADDRESS = "_flexcage_address"  # of a kernel, kept by it
+
 
 def short_name(kind: str, content: Any) -> str:
     """A type's name for what may take many lines to name: names are part of compiled code."""
@@ -43,9 +45,12 @@ register_model(KernelType)(FunctionModel)
 
 
 def kernel_address(kernel: Any) -> int:
-    """Address of the only function that is compiled of a kernel."""
-    (compiled,) = kernel.overloads.values()
-    return compiled.library.get_pointer_to_function(compiled.fndesc.llvm_func_name)
+    """Address of the only function that is compiled of a kernel, looked up once."""
+    if not hasattr(kernel, _ADDRESS):
+        (compiled,) = kernel.overloads.values()
+        found = compiled.library.get_pointer_to_function(compiled.fndesc.llvm_func_name)
+        setattr(kernel, _ADDRESS, found)
+    return getattr(kernel, _ADDRESS)
 
 
 @unbox(KernelType)

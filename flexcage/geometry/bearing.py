@@ -28,6 +28,7 @@ from flexcage.geometry.other_kinds import kind_of, named_kind
 
 if TYPE_CHECKING:
     from flexcage.geometry.fits.changed import Changed
+    from flexcage.geometry.fits.spec import Fit
     from flexcage.geometry.materials import Material
 
 _MISSING = object()
@@ -174,6 +175,15 @@ class Bearing:
         raise self._lacks("clearance")
 
     @property
+    def has_inner_ring(self) -> bool:
+        """Is there one? Without it elements run on the shaft, whose diameter is the bore."""
+        return True
+
+    def fit_refusal(self, fit: Fit) -> str:
+        """Why it cannot sit as a fit says, in words; empty where it can."""
+        return ""
+
+    @property
     def race_diameters(self) -> tuple[float, float]:
         """Diameters [m] at which elements roll on inner and outer race."""
         raise self._lacks("race_diameters")
@@ -182,9 +192,9 @@ class Bearing:
         """The bearing as fits, warmth and speed change it; types without it have no [fit]."""
         raise self._lacks("in_place")
 
-    def approach(self, mounted: Bearing) -> float | None:
-        """By how much [m] the inner ring of this bearing, ``mounted``, meets its elements earlier
-        along the axis; None of types without a place of first contact."""
+    def approach(self, mounted: Bearing, changed: Changed) -> float | None:
+        """By how much [m] the inner ring of this bearing, ``mounted`` and ``changed``, meets its
+        elements earlier along the axis; None of types without a place of first contact."""
         return None
 
     @property
@@ -228,6 +238,11 @@ class Bearing:
     def nominal_contact_angle(self) -> float:
         """Contact angle [rad] to which kinematics refer."""
         return 0.0
+
+    def rolling_angles(self, angles: tuple[float, float]) -> tuple[float, float]:
+        """Angles [rad] of inner and outer race that kinematics take where elements bear at contact
+        angles [rad]: the same, but for cones, whose races differ in theirs all along."""
+        return angles
 
     @property
     def rolling_heights(self) -> tuple[float, float]:

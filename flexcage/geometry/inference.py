@@ -8,7 +8,7 @@ how much a bearing carries, and so what must be in it.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import log
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -59,7 +59,7 @@ class Outline:
     the designation names no group of ``clearance``. ``complement``: of what the ratings are, and
     whether the bearing has a cage (``full_complement``); ``cage`` and ``element_material`` (its
     name): those that the designation names. ``left_out``: what else the designation says, a
-    sentence each.
+    sentence each. ``further``: lengths [m] that only a family's own tables have.
     """
 
     type: str
@@ -80,6 +80,7 @@ class Outline:
     cage: MarkedCage | None = None
     element_material: str | None = None
     left_out: tuple[str, ...] = ()
+    further: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if not self.outside_diameter > self.bore:
@@ -127,6 +128,7 @@ class Candidate:
     bearing: Bearing
     reasons: Mapping[str, str]
     unlikely: float  # what speaks against it beside the ratings
+    least_factor: float = MAKERS_FACTOR[0]  # of ISO 281's C, at which makers rate such bearings
 
     @property
     def static_error(self) -> float:
@@ -140,14 +142,14 @@ class Candidate:
 
     @property
     def misfit(self) -> float:
-        low, usual = 1.0, USUAL_FACTOR
+        low, usual = self.least_factor, USUAL_FACTOR
         below, above = log(low / self.makers_factor), log(self.makers_factor / usual)
         off = max(below / 0.02, above / 0.05, 0.0)  # makers rate higher, but never lower
         return (self.static_error / 0.01) ** 2 + off**2 + self.unlikely
 
     def fits(self, static_tolerance: float) -> bool:
         """Do its ratings come near those of the catalogue?"""
-        low, high = MAKERS_FACTOR
+        low, high = self.least_factor, MAKERS_FACTOR[1]
         factor = self.makers_factor
         return (
             abs(self.static_error) <= static_tolerance
@@ -158,8 +160,9 @@ class Candidate:
 @dataclass(frozen=True, kw_only=True)
 class Inference:
     """How a family infers internal geometry: ``candidates`` for an outline, in any order, and the
-    type of cage that its types of bearing commonly have; ``count``: key of the number of elements;
-    ``full``: candidates for ratings of a full complement, None where these tell none."""
+    type of cage that its types of bearing commonly have, "" of those that do not run; ``count``:
+    key of the number of elements; ``full``: candidates for ratings of a full complement, None where
+    these tell none."""
 
     candidates: Callable[[Outline], Sequence[Candidate]]
     cages: Mapping[str, str]
@@ -198,7 +201,7 @@ def _none_fits(candidates: Sequence[Candidate]) -> InputError:
     best = min(candidates, key=lambda c: c.misfit)
     outline, bearing = best.outline, best.bearing
     static, dynamic = bearing.rating_names
-    low, high = MAKERS_FACTOR
+    low, high = best.least_factor, MAKERS_FACTOR[1]
     return InputError(
         f"No internal geometry of these dimensions gives {static} = "
         f"{_kn(outline.static_rating)} and {dynamic} = {_kn(outline.dynamic_rating)}: the "

@@ -7,10 +7,19 @@ import re
 from collections.abc import Mapping
 from types import MappingProxyType
 
-_HAS = (
-    "flexcage has none: it has deep groove, angular contact and four-point contact ball bearings, "
-    "and cylindrical roller bearings, single-row"
+from flexcage.core.wings import FAMILIES
+
+_HAS = "flexcage has none; 'flexcage keys bearing' lists the types that it has"
+_AS_TYPE = (
+    "its internal geometry is not inferred: give that in a case as bearing.type '{}', for "
+    "'flexcage static'"
 )
+# kinds of which flexcage has a type, but does not know what is inside
+_TYPES = {
+    "a self-aligning ball bearing": "self_aligning_ball",
+    "a double row angular contact ball bearing": "double_row_angular_contact_ball",
+    "a double row cylindrical roller bearing": "double_row_cylindrical_roller",
+}
 # ISO 15 and makers' catalogues (SKF, Schaeffler, NSK): first digits and letters of designations
 # without spaces, dashes and strokes, and what such a bearing is
 _DESIGNATIONS = {
@@ -23,7 +32,9 @@ _DESIGNATIONS = {
     r"(1[23]|2[23])\d\d([A-Z].*)?": "a self-aligning ball bearing",
     r"(3[0238]|5[23])\d\d([A-Z].*)?": "a double row angular contact ball bearing",
     r"4[23]\d\d([A-Z].*)?": "a double row deep groove ball bearing",
-    r"(NK|NKI|NKS|NKIS|NA|RNA|HK|BK|NKIA|NKIB|NKX|NKXR|AXK|AXW|K)\d.*": "a needle roller bearing",
+    r"(NKIA|NKIB|NKX|NKXR)\d.*": "a needle roller bearing combined with a ball bearing",
+    r"(AXK|AXW)\d.*": "a thrust needle roller bearing",
+    r"K\d.*": "a needle roller and cage assembly, without rings",
     r"(NNCF|NNCL|NNC|NNF|SL0\d|SL1850)\d.*": "a double row full complement cylindrical roller "
     "bearing",
     r"RSL1[89]\d.*": "a full complement cylindrical roller bearing without an outer ring",
@@ -37,12 +48,9 @@ _DESIGNATIONS = {
     r"X[RS]U?\d.*|RB\d{4,}.*": "a crossed roller bearing",
 }
 _NAMES = {
-    r"taper.*": "tapered roller bearings",
     r".*thrust.*": "thrust bearings",
     r"(spherical|barrel).*": "spherical roller bearings",
-    r"self.?align.*": "self-aligning bearings",
-    r"(double|two|multi|four).?row.*|duplex.*": "bearings of several rows",
-    r"needle.*": "needle roller bearings",
+    r"(double|two|multi|four).?row.*|duplex.*": "such bearings of several rows",
     r"(cross|toroid|carb|insert|slewing|linear|plain|journal|magnetic|slide).*": "such bearings",
 }
 _CAGELESS = re.compile(r"full.?complement.*|cageless", re.IGNORECASE)
@@ -87,9 +95,12 @@ def kind_of(designation: str) -> str:
             "the preload in load.axial"
         )
     two_rows = _FOUR_DIGITS.fullmatch(designation.strip())
+    here = {f"a {kind}" for kind in _kinds()}
     for pattern, kind in _DESIGNATIONS.items():
         if re.fullmatch(pattern, designation.strip()[:4] if two_rows else name):
-            return f"is {kind}; {_HAS}"
+            if kind in _TYPES:
+                return f"is {kind}; {_AS_TYPE.format(_TYPES[kind])}"
+            return "" if kind in here else f"is {kind}; {_HAS}"
     return ""
 
 
@@ -102,3 +113,8 @@ def named_kind(name: str) -> str:
         if re.fullmatch(pattern, name.strip(), re.IGNORECASE):
             return f"of {kinds} {_HAS}"
     return ""
+
+
+def _kinds() -> list[str]:
+    """Kinds of bearings that all families have, in words."""
+    return sorted(spec.kind for family in FAMILIES.values() for spec in family.types)

@@ -10,7 +10,7 @@ import numba
 import numpy as np
 from numba import types
 
-from flexcage.core.jit import OPTIONS, allocating_kernel, compiled
+from flexcage.core.jit import OPTIONS, allocating_kernel, compiled, entry_of
 from flexcage.core.kernel_values import KernelType
 from flexcage.solve import runge_kutta
 from flexcage.solve.contract import Integrator
@@ -147,4 +147,4 @@ class Integrable(ABC):
         for helper in integrator.helpers:
             if not hasattr(module[helper], "py_func"):
                 module[helper] = allocating_kernel(module[helper])
-        return compiled(getattr(function, "py_func", function), signature, OPTIONS)
+        return entry_of(compiled(getattr(function, "py_func", function), signature, OPTIONS))

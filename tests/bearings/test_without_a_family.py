@@ -11,6 +11,9 @@ from pathlib import Path
 
 import pytest
 
+from flexcage.core.wings import FAMILIES as WING
+from flexcage.geometry.bearing import BEARING_TYPES
+
 ROOT = Path(__file__).parents[2]
 #: Rooms in which bearings touch and move; the others' tests take long, or know no family.
 ROOMS = ("contacts", "solve", "system")
@@ -18,9 +21,9 @@ ROOMS = ("contacts", "solve", "system")
 
 @dataclass(frozen=True)
 class Left:
-    """A family that is left out: presets that want it and that do not, one of its specs, what its
-    tests have in their texts, answers of ``flexcage verify`` on it alone, and the families that are
-    built on it, which go with it."""
+    """A family that is left out: a preset that wants it, or its type of bearing, and one that does
+    not, one of its specs, what its tests have in their texts, and answers of ``flexcage verify`` on
+    it alone."""
 
     preset: str
     other: str
@@ -28,18 +31,21 @@ class Left:
     said: str
     words: str
     answers: str = "no such file"
-    built_on: tuple[str, ...] = ()
 
 
 FAMILIES = {
     "ball": Left(
         "7010C-PI", "N1013", "BallBearing", "bearing.type 'angular_contact_ball' is not known",
-        "ball|groove|ribbon|crown|7010|6205|7603025", built_on=("four_point",),
+        "ball|groove|ribbon|crown|7010|6205|7603025",
     ),
     "cylindrical_roller": Left(
         "N1013", "7010C-PI", "RollerBearing", "which is not registered",
         r"roller|n1013|\bnu\d|\bnj\d|window|crossbeam|bearing_runs|bearing_of|kernels import land",
         "roller*.py",
+    ),
+    "tapered_roller": Left(
+        "tapered_roller", "N1013", "TaperedRollerBearing",
+        "bearing.type 'tapered_roller' is not known", "tapered",
     ),
 }  # fmt: skip
 
@@ -50,10 +56,11 @@ def without(request, tmp_path_factory):
     copy = tmp_path_factory.mktemp("copy")
     own = shutil.ignore_patterns("__pycache__")
     shutil.copytree(ROOT / "flexcage", copy / "flexcage", ignore=own)
+    built_on_it = [family.name for family in WING.values() if family.built_on == request.param]
+    for name in (request.param, *built_on_it):
+        shutil.rmtree(copy / "flexcage/bearings" / name)
+        _edit(copy / "flexcage/bearings/specs.py", rf"from flexcage\.bearings\.{name} .*\n")
     left = FAMILIES[request.param]
-    for family in (request.param, *left.built_on):
-        shutil.rmtree(copy / "flexcage/bearings" / family)
-        _edit(copy / "flexcage/bearings/specs.py", rf"from flexcage\.bearings\.{family} .*\n")
     for answer in (copy / "flexcage/verification/cases").glob(left.answers):
         answer.unlink()
     shutil.copy(ROOT / "pyproject.toml", copy)
@@ -88,11 +95,13 @@ def test_walls_hold(without):
 
 
 def test_the_other_family_remains_and_this_one_is_refused(without):
-    left = without.left
+    left, asked = without.left, f"flexcage.Case.from_preset('{without.left.preset}')"
+    if left.preset in BEARING_TYPES:
+        asked = f"flexcage.load_static({{'bearing': {{'type': '{left.preset}'}}}})"
     code = (
         f"import flexcage; flexcage.Case.from_preset('{left.other}').to_toml(); "
         f"assert '{left.spec}' not in dir(flexcage.spec)\n"
-        f"try: flexcage.Case.from_preset('{left.preset}')\n"
+        f"try: {asked}\n"
         "except flexcage.InputError as exc: print(exc)"
     )
     done = without(sys.executable, "-c", code)

@@ -109,6 +109,7 @@ def test_the_keys_of_a_material_name_those_that_there_are(capsys):
     "page",
     [
         "keys_bearing.md",
+        "keys_cage.md",
         "keys_motion.md",
         "keys_fits.md",
         "keys_sensors.md",
@@ -132,7 +133,7 @@ def test_a_page_lists_keys_alone():
 def test_the_pages_hold_every_section():
     text = "".join(
         (EXAMPLES / f"keys_{part}.md").read_text("utf-8")
-        for part in ("bearing", "motion", "fits", "sensors")
+        for part in ("bearing", "cage", "motion", "fits", "sensors")
     )
     named = re.findall(r"^Printed by `flexcage keys (.*)`", text, re.MULTILINE)
     assert sorted(" ".join(named).split()) == sorted({g.section for g in keys.groups()})

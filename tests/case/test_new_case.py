@@ -3,17 +3,20 @@ and one sentence for what cannot be."""
 
 import re
 from functools import cache
+from itertools import filterfalse
 from math import cos
 
 import pytest
 from scipy.optimize import brentq
 
+from flexcage.bearings import in_motion
 from flexcage.bearings.ball.inference import filling_angle
 from flexcage.bearings.ball.ratings import static_factor
-from flexcage.case import catalogue, load_case
+from flexcage.case import catalogue, load_case, load_static
 from flexcage.case.new import new_case
 from flexcage.cli import main
 from flexcage.core.errors import InputError
+from flexcage.geometry.bearing import BEARING_TYPES
 from flexcage.geometry.inference import Outline
 from flexcage.geometry.other_kinds import kind_of
 from flexcage.simulate import simulate
@@ -138,11 +141,13 @@ def test_another_makers_ratings_give_its_balls():
 @pytest.mark.parametrize("designation", catalogue.designations())
 def test_every_entry_gives_a_case_that_fits_its_ratings(designation):
     made = written(designation)
-    case = load_case(made.text)
+    runs = in_motion(BEARING_TYPES[made.outline.type])
+    case = load_case(made.text) if runs else load_static(made.text)
     bearing, outline = case.bearing, made.outline
     assert bearing == made.chosen.bearing and bearing.designation == designation
     assert bearing.static_rating == pytest.approx(outline.static_rating, rel=0.0305)
-    assert 0.97 <= outline.dynamic_rating / bearing.dynamic_rating <= 1.25
+    least = 0.89 if designation.startswith("HN") else 0.97  # what makers rate full cups at
+    assert least <= outline.dynamic_rating / bearing.dynamic_rating <= 1.25
     if bearing.type == "deep_groove_ball":
         angle = filling_angle(bearing.ball_count, bearing.ball_diameter, bearing.pitch_diameter)
         assert angle <= 3.404  # 195 degrees
@@ -160,10 +165,13 @@ def test_static_ratings_are_within_two_percent_but_where_whole_numbers_forbid():
 def test_series_share_boundary_dimensions():
     """ISO 15: bore codes 00 to 03 are 10, 12, 15 and 17 mm, others five times the code."""
     bores = {"00": 10.0, "01": 12.0, "02": 15.0, "03": 17.0}
-    for designation in catalogue.designations():
+    needles = re.compile(r"(NKI?|HK|BK|HN|R?NA)\d.*")
+    for designation in filterfalse(needles.match, catalogue.designations()):
         outline = catalogue.find(designation).outline
         code = re.sub(
-            r"^(QJ\d|N(CF|JG)[23]\d|(N|NU|NJ|NUP)(10|2|3)|[67]\d)|[A-Z]+$", "", designation
+            r"^(QJ\d|N(CF|JG)[23]\d|(N|NU|NJ|NUP)(10|2|3)|[67]\d|3[02]\d)|[A-Z]+$",
+            "",
+            designation,
         )
         assert 1e3 * outline.bore == pytest.approx(bores.get(code, 5.0 * int(code)))
         assert outline.bore < outline.outside_diameter and catalogue.find(designation).source
@@ -323,13 +331,12 @@ def test_makers_suffixes_are_read_and_each_is_explained(designation, same, notes
 @pytest.mark.parametrize(
     ("designation", "kind"),
     [
-        ("30205", "a tapered roller bearing"),
-        ("32008 X/Q", "a tapered roller bearing"),
         ("51105", "a thrust ball bearing"),
         ("22208 E", "a spherical roller bearing"),
         ("29412", "a spherical roller thrust bearing"),
         ("81105 TN", "a cylindrical roller thrust bearing"),
-        ("NK 20/16", "a needle roller bearing"),
+        ("NKX 20", "a needle roller bearing combined with a ball bearing"),
+        ("AXK 2035", "a thrust needle roller bearing"),
         ("1205 ETN9", "a self-aligning ball bearing"),
         ("2205", "a self-aligning ball bearing"),
         ("3205 A", "a double row angular contact ball bearing"),
@@ -346,7 +353,7 @@ def test_makers_suffixes_are_read_and_each_is_explained(designation, same, notes
 def test_bearings_of_other_kinds_are_declined_by_kind(designation, kind):
     with pytest.raises(InputError) as caught:
         catalogue.find(designation)
-    assert str(caught.value).startswith(f"'{designation}' is {kind}; flexcage has ")
+    assert str(caught.value).startswith(f"'{designation}' is {kind}; ")
 
 
 @pytest.mark.parametrize("designation", sorted(catalogue.designations()))
@@ -360,8 +367,8 @@ def test_a_series_without_dimensions_is_not_taken_for_another_design():
 
 
 def test_a_type_that_there_is_not_is_declined_before_its_dimensions(capsys):
-    assert main(["new", "6205", "--type", "tapered_roller"]) == 2
-    assert "of tapered roller bearings flexcage has none" in capsys.readouterr().err
+    assert main(["new", "6205", "--type", "spherical_roller"]) == 2
+    assert "of spherical roller bearings flexcage has none" in capsys.readouterr().err
 
 
 def test_angular_contact_bearings_have_no_groups_of_clearance():

@@ -119,7 +119,7 @@ MISTAKES = [
      "both preload_force and axial_offset"),
     (("axial_offset = \"8 um\"", "spring_force = \"9 N\""), "but axial_seat is 'fixed'"),
     (("axial_offset = \"8 um\"", "axial_seat = \"floating\""), "without a push it falls apart"),
-    (('preset = "7010C-PI"', 'designation = "30206"'), "a tapered roller bearing"),
+    (('preset = "7010C-PI"', 'designation = "2206"'), "a self-aligning ball bearing"),
     (('preset = "7010C-PI"', 'designation = "6206"\npreset = "7010C-PI"'), "both name the bearing"),
     (('preset = "7010C-PI"\n', ""), "In [[bearings]] 'A': the bearing is not named"),
     (('preset = "7010C-PI"', 'case = "none.toml"'), "There is no case file"),

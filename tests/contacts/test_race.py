@@ -9,7 +9,6 @@ import pytest
 from contact_kernels import race, turned
 from law_values import rolling
 
-from flexcage.bearings.cylindrical_roller.bearing import RollerProfile
 from flexcage.contacts import laws
 from flexcage.contacts.evaluation import (
     DAMPED,
@@ -22,6 +21,7 @@ from flexcage.contacts.evaluation import (
     TRACTION,
 )
 from flexcage.contacts.spec import Contacts, FrictionLaw, NormalLaw, PairSpec
+from flexcage.geometry.rollers import RollerProfile
 from flexcage.geometry.spall import Spall
 
 

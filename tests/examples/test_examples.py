@@ -23,6 +23,7 @@ TESTED = {
     "ex09_machine",
     "ex10_signals",
     "ex11_diagnosis",
+    "ex12_tapered",
 }
 
 
@@ -51,6 +52,14 @@ def test_rigid_against_flexible():
 def test_defect_sweep():
     first, _, last = example("ex03_defect_sweep").main(**{**SHORT, "solver.duration": "1 ms"})
     assert last / first == pytest.approx(0.05 / 0.01, rel=0.06)
+
+
+def test_tapered_example(capsys):
+    module = example("ex12_tapered")
+    still, fast = module.main(0.0, 12000.0)
+    assert still == pytest.approx(module.wedge()) and fast > 1.1 * still
+    assert module.loaded() == 15
+    assert "the rib bears" in capsys.readouterr().out
 
 
 def test_static(capsys):
@@ -93,6 +102,14 @@ def test_qj208():
             found = float(arcs.sel(race=race, arc=side))
             assert found == pytest.approx(due[f"{race} {side}"].max(), rel=0.04)
     assert run.summary["share_on_4_contacts"] > 0.5 and run.summary["energy_audit"] == "passed"
+
+
+def test_hk2020():
+    """Five of 21 needles bear; the most loaded one 551 N, in the static solution."""
+    solution = solve_static(load_static(EXAMPLES / "HK2020.toml"))
+    force = solution.elements.force[:, 0]
+    assert (force > 0.0).sum() == 5
+    assert solution.largest_force == pytest.approx(551.2, abs=0.1)
 
 
 def test_full_complement():

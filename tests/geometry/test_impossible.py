@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from flexcage.bearings.cylindrical_roller.bearing import RollerProfile
 from flexcage.cages.window.defects import CrossbeamDefect, SideBeamDefect, pocket_clearances
 from flexcage.case.presets import load_preset
 from flexcage.core.errors import InputError
+from flexcage.geometry.rollers import RollerProfile
 
 PRESET = load_preset("N1013")
 BEARING, CAGE = PRESET.bearing, PRESET.cage

@@ -10,10 +10,10 @@ from bearing_runs import march, rolling_start
 from law_values import rolling
 from scipy.integrate import solve_ivp
 
-from flexcage.bearings.cylindrical_roller.bearing import RollerProfile
 from flexcage.bodies.floating_frame import rigid_body
 from flexcage.contacts import laws
 from flexcage.contacts.spec import Contacts, FrictionLaw, Lubricant, NormalLaw, PairSpec
+from flexcage.geometry.rollers import RollerProfile
 from flexcage.system.spec import Drive, Load
 
 RPM = 2 * np.pi / 60

@@ -9,9 +9,9 @@ from scipy.optimize import brentq
 from solved_bearings import solve_bearing
 
 from flexcage.bearings import statics_of
-from flexcage.bearings.cylindrical_roller.bearing import RollerProfile
 from flexcage.contacts.spec import Contacts, NormalLaw, PairSpec
 from flexcage.core.errors import InputError
+from flexcage.geometry.rollers import RollerProfile
 from flexcage.system.spec import Load
 from flexcage.system.statics.equilibrium import nearest, settle
 from flexcage.system.statics.options import StaticOptions

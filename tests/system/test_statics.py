@@ -9,11 +9,11 @@ from scipy.optimize import brentq
 from solved_bearings import solve_bearing
 
 from flexcage.bearings import statics_of
-from flexcage.bearings.cylindrical_roller.bearing import RollerProfile
 from flexcage.case.presets import load_preset
 from flexcage.contacts.spec import Contacts, PairSpec
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.geometry.hertz import series_stiffness
+from flexcage.geometry.rollers import RollerProfile
 from flexcage.system.spec import Load
 from flexcage.system.statics.options import StaticOptions
 

@@ -32,14 +32,17 @@ def overlaid(
 
 def bands(
     ax: Axes, sample: Sample, output: str, axis: Mapping[str, float], factor: float, *,
-    colour: str = sheet.BLUE, label: str = "settings that the text allows",
+    against: str = "", colour: str = sheet.BLUE, label: str = "settings that the text allows",
 ) -> None:  # fmt: skip
-    """Median and middle 80 % of the settings over an axis of conditions, which lie at its values.
+    """Median and middle 80 % of the settings over an axis of conditions, which lie at its values;
+    over what each setting has at the condition ``against``, if one is given.
 
     A claim of a trend is a claim on each setting, not on this band: see the verdict.
     """
     at = np.array(list(axis.values()))
     values = np.array([sample.means[output, c] for c in axis]) * factor
+    if against:
+        values = values / (sample.means[output, against] * factor)
     low, mid, high = np.nanpercentile(values, (10.0, 50.0, 90.0), axis=1)
     ax.fill_between(at, low, high, color=colour, alpha=0.18, lw=0)
     ax.plot(at, mid, color=colour, lw=1.6, label=label)
@@ -47,9 +50,12 @@ def bands(
 
 def starts(
     ax: Axes, reading: Reading, output: str, axis: Mapping[str, float], factor: float, *,
-    colour: str, label: str, marker: str = "o", shift: float = 0.0,
+    colour: str, label: str, marker: str = "o", shift: float = 0.0, against: str = "",
 ) -> None:  # fmt: skip
-    """Mean of a reading's starts over an axis of conditions, with a bar from least to largest."""
+    """Mean of a reading's starts over an axis of conditions, with a bar from least to largest; over
+    the mean at the condition ``against``, if one is given."""
+    if against:
+        factor = 1.0 / float(np.mean(reading.values(output, against)))
     for k, (condition, at) in enumerate(axis.items()):
         found = reading.values(output, condition) * factor
         if not len(found):

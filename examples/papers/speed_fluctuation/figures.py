@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 from claims import A3, A6, A9, CONSTANT, N2, N3
-from judging.panels import Panel, arrow, sheets_of
+from judging.panels import Panel, arrow, kept, sheet_of, sheets_of
 from judging.pictures import bands, overlaid, starts
 from matplotlib.axes import Axes
 
@@ -46,6 +46,23 @@ def cage_speed(run: Run) -> tuple[np.ndarray, np.ndarray]:
     return run.dataset["time"].values * 1e3, run.dataset["cage_omega"].sel(axis="x").values * RPM
 
 
+def last_of(curve: Curve) -> Curve:
+    """The last turns of a curve."""
+
+    def last(run: Run) -> tuple[np.ndarray, np.ndarray]:
+        time, values = curve(run)
+        late = time >= time[-1] - LAST
+        return time[late], values[late]
+
+    return last
+
+
+def pocket_force(run: Run) -> tuple[np.ndarray, np.ndarray]:
+    """Largest force between one ball and the cage since the sample before [N] over time [ms]."""
+    ds = run.dataset
+    return ds["time"].values * 1e3, metrics.pocket_peaks(ds).values.max(axis=2)[:, 0]
+
+
 def race_force(run: Run) -> tuple[np.ndarray, np.ndarray]:
     """Force of one ball on the inner ring [N] over time [ms]."""
     force = run.dataset["race_force"].sel(race="inner", element=0).values
@@ -65,13 +82,18 @@ class Pictures:
         def draw(column: str) -> Callable[[Axes], None]:
             def drawn(ax: Axes) -> None:
                 reading = self.computed.readings[column]
-                overlaid(ax, reading, reading.among(names), curve)
+                overlaid(ax, reading, reading.among(names), curve if whole else last_of(curve))
                 end = max(line.get_xdata()[-1] for line in ax.lines)
-                begin = 0.0 if whole else max(end - LAST, 0.0)
-                ax.set_xlim(begin, end)
+                ax.set_xlim(min(line.get_xdata()[0] for line in ax.lines), end)
                 for name, value in LEVELS.items() if marked else ():
                     ax.axhline(value, color="0.5", lw=0.8, ls="--")
-                    ax.annotate(name, (end, value), fontsize=7, ha="right", va="bottom")
+                    ax.annotate(
+                        name,
+                        (end, value),
+                        fontsize=7,
+                        ha="right",
+                        va="top" if "theory" in name else "bottom",
+                    )
                 if marked:
                     ax.set_ylim(900.0, 945.0)
 
@@ -83,12 +105,12 @@ class Pictures:
 
     def orbits(self, names: Mapping[str, str], body: str, column: str, factor: float,
                unit: str) -> list[Panel]:  # fmt: skip
-        """Orbits of the cage about the axis, or of the inner ring about its mean place: a panel a
-        condition, all on one scale; the load is down."""
+        """Orbits of the cage or of the inner ring about their mean place: a panel a condition, all
+        on one scale; the load is down."""
         reading, found = self.computed.readings[column], {}
         for c in reading.among(names):
             yz = metrics.centre_of(settled(reading.run(c)), body) * factor
-            found[c] = yz - (yz.mean(axis=0) if body == "inner" else 0.0)
+            found[c] = yz - 0.5 * (yz.min(axis=0) + yz.max(axis=0))
         reach = 1.05 * max((np.abs(yz).max() for yz in found.values()), default=1.0)
 
         def draw(c: str) -> Callable[[Axes], None]:
@@ -108,11 +130,9 @@ class Pictures:
 
         def draw(c: str) -> Callable[[Axes], None]:
             def drawn(ax: Axes) -> None:
-                ds = reading.run(c).dataset
-                time = ds["time"].values * 1e3
-                force = metrics.pocket_peaks(ds).values.max(axis=2)[:, 0]
+                time, force = last_of(pocket_force)(reading.run(c))
                 ax.plot(time, force, color=TINTS[column], lw=0.6)
-                ax.set(xlim=(max(time[-1] - LAST, 0.0), time[-1]), ylim=(0.0, None))
+                ax.set(xlim=(time[0], time[-1]), ylim=(0.0, None))
 
             return drawn
 
@@ -120,15 +140,16 @@ class Pictures:
                       square=True) for c in reading.among(names)]  # fmt: skip
 
     def over(self, output: str, axis: Mapping[str, float], factor: float, unit: str, below: str,
-             table: str = "") -> Panel:  # fmt: skip
-        """An output over the conditions: settings, starts of both readings, printed numbers."""
+             table: str = "", against: str = "") -> Panel:  # fmt: skip
+        """An output over the conditions: settings, starts of both readings, printed numbers; over
+        what each has at the condition ``against``."""
 
         def drawn(ax: Axes) -> None:
             if "model" in self.computed.samples:
-                bands(ax, self.computed.samples["model"], output, axis, factor)
+                bands(ax, self.computed.samples["model"], output, axis, factor, against=against)
             for column, reading in self.computed.readings.items():
                 starts(ax, reading, output, axis, factor, colour=TINTS[column],
-                       label=READINGS[column])  # fmt: skip
+                       label=READINGS[column], against=against)  # fmt: skip
             shown = PRINTED[table][output] if table else {}
             if shown:
                 ax.plot([axis[c] for c in shown], list(shown.values()), "^", ms=7, mfc="none",
@@ -150,15 +171,19 @@ def draw(computed, folder: Path) -> dict[str, str]:
                 [p.over("speed", axis, RPM, "mean speed / rpm", below, table),
                  p.over("swing", axis, PERCENT, "fluctuation A_c / %", below, table)]]  # fmt: skip
 
+    def change(output, what, axis, below) -> Panel:
+        return p.over(output, axis, 1.0, f"{what}, constant speed: 1", below,
+                      against=CONSTANT)  # fmt: skip
+
     def cage(names, axis, below) -> list[list[Panel]]:
         return [p.orbits(names, "cage", first, UM, "um"), p.pocket_forces(names, first),
-                [p.over("distance", axis, UM, "largest distance / um", below),
-                 p.over("one_force", axis, 1.0, "largest force / N", below)]]  # fmt: skip
+                [change("distance", "distance", axis, below),
+                 change("one_force", "force", axis, below)]]  # fmt: skip
 
     def ring(names, axis, below) -> list[list[Panel]]:
         return [p.orbits(names, "inner", first, NM, "nm"),
-                [p.over("ring_range", axis, NM, "range of the orbit / nm", below),
-                 p.over("ring_distance", axis, UM, "largest distance / um", below)],
+                [change("ring_range", "range of orbit", axis, below),
+                 change("ripple", "ripple", axis, below)],
                 p.row(names, race_force, "force / N")]  # fmt: skip
 
     rows = {
@@ -167,7 +192,13 @@ def draw(computed, folder: Path) -> dict[str, str]:
         "10_12": lambda: ring(NAMES_A, BY_A, a), "13": lambda: speeds(NAMES_N, BY_N, "table_7", n),
         "14_19": lambda: [*cage(NAMES_N, BY_N, n), *ring(NAMES_N, BY_N, n)],
     }  # fmt: skip
-    return {"sketch": sketch(folder / "sketch.png"), **sheets_of(folder, rows)}
+    hero = kept(folder / "hero.png", lambda: sheet_of(
+        folder / "hero.png", "The cage follows the ring", [[p.over(
+            "swing", BY_A, PERCENT, "fluctuation of the cage A_c / %",
+            "fluctuation of the ring A / %", "table_6",
+        )]],
+    ))  # fmt: skip
+    return {"sketch": sketch(folder / "sketch.png"), "hero": hero, **sheets_of(folder, rows)}
 
 
 def sketch(path: Path) -> str:

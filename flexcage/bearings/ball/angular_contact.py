@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import asin, cos, pi, sin, sqrt
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from flexcage.bearings.ball.bearing import BallBearing, clearance_at
 from flexcage.core.spec import quantity
 from flexcage.geometry.bearing import Bearing, type_name
+
+if TYPE_CHECKING:
+    from flexcage.geometry.fits.changed import Changed
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,8 +48,11 @@ class AngularContactBallBearing(BallBearing):
     def clearance(self) -> float:
         return clearance_at(self.free_contact_angle, self.groove_distance)
 
-    def approach(self, mounted: Bearing) -> float:
+    def approach(self, mounted: Bearing, changed: Changed) -> float | None:
+        """None where no clearance, and so no contact angle, is left."""
         assert isinstance(mounted, AngularContactBallBearing)
+        if (mounted.radial_clearance or 0.0) <= 0.0:
+            return None
         return self.groove_offset[0] - mounted.groove_offset[0]
 
     def _as_clearance(self, clearance: float) -> dict[str, Any]:

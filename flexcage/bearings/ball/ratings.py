@@ -18,12 +18,13 @@ from flexcage.geometry.bearing import EquivalentLoad
 from flexcage.geometry.hertz import PointContact, load_at_pressure
 
 STATIC_PRESSURE = 4.2e9  # Pa, ISO 76, balls
-_STRIBECK = 5.0  # ISO 76: C0r = Z Q cos(alpha)/5
+STRIBECK = 5.0  # ISO 76: C0r = Z Q cos(alpha)/5
 _STEEL = 207e9 / (1.0 - 0.3**2)  # Pa, of the standard's table
 _B_M = 1.3  # ISO 281: today's steel and manufacture, ball bearings
 # Lundberg and Palmgren's constants in kgf and mm, g of ISO 80000, and the standard's reduction
 # factors lambda: 0.95 for one row of radial contact, 0.9 for thrust bearings
-_RADIAL, _THRUST = 98.0665 * 0.41 * 0.95, 98.0665 * 0.9
+LUNDBERG_PALMGREN = 98.0665 * 0.41
+_RADIAL, _THRUST = LUNDBERG_PALMGREN * 0.95, 98.0665 * 0.9
 _SIZE_LIMIT = 25.4  # mm: beyond, the standard has 3.647 Dw^1.4 for Dw^1.8
 
 # ISO 281, table 3: X and e; Y = (1 - X)/e is the table's to its rounding, without its jumps. Deep
@@ -51,8 +52,15 @@ _THRUST_TABLE = np.array([
 ])  # fmt: skip
 
 
-def static_factor(gamma: float, inner: float, outer: float, *, modulus: float = _STEEL) -> float:
-    """Load of a ball at 4200 MPa over its diameter squared [N/mm^2], at D cos(alpha)/Dpw.
+def static_factor(
+    gamma: float,
+    inner: float,
+    outer: float,
+    *,
+    modulus: float = _STEEL,
+    pressure: float = STATIC_PRESSURE,
+) -> float:
+    """Load of a ball at ``pressure`` over its diameter squared [N/mm^2], at D cos(alpha)/Dpw.
 
     ``inner`` and ``outer`` are the grooves' conformities. A fifth of it is f_0 of radial bearings.
     """
@@ -63,11 +71,11 @@ def static_factor(gamma: float, inner: float, outer: float, *, modulus: float = 
             transverse=conformity / (2.0 * conformity - 1.0),
             modulus=modulus,
         )  # of a ball 1 m in diameter
-        loads.append(load_at_pressure(unit, STATIC_PRESSURE))
+        loads.append(load_at_pressure(unit, pressure))
     return 1e-6 * min(loads)
 
 
-def _shape(gamma: float, inner: float, outer: float, spread: float) -> float:
+def shape_factor(gamma: float, inner: float, outer: float, spread: float) -> float:
     """What f_c of radial and of thrust ball bearings have in common."""
     share = ring_share(gamma, inner, outer, spread)
     rings = (1.0 + share ** (10.0 / 3.0)) ** -0.3
@@ -90,7 +98,7 @@ def radial_factor(gamma: float, inner: float = 0.52, outer: float = 0.53) -> flo
     The standard allows outer grooves up to 0.53 and computes its table with 0.52; wider ones are
     taken 0.01 closer as well (an assumption, so that the factor has no jump).
     """
-    return _RADIAL * _shape(gamma, max(inner, 0.52), max(outer - 0.01, 0.52), 1.04)
+    return _RADIAL * shape_factor(gamma, max(inner, 0.52), max(outer - 0.01, 0.52), 1.04)
 
 
 def thrust_factor(gamma: float, angle: float, inner: float = 0.535, outer: float = 0.535) -> float:
@@ -99,7 +107,7 @@ def thrust_factor(gamma: float, angle: float, inner: float = 0.535, outer: float
     ISO 281's table comes out, to its last digit, for grooves of 0.535.
     """
     reduction = _THRUST * (1.0 - sin(angle) / 3.0)
-    return reduction * _shape(gamma, max(inner, 0.535), max(outer, 0.535), 1.0)
+    return reduction * shape_factor(gamma, max(inner, 0.535), max(outer, 0.535), 1.0)
 
 
 def static_rating(bearing: BallBearing) -> float:
@@ -111,18 +119,22 @@ def static_rating(bearing: BallBearing) -> float:
         bearing.gamma, max(bearing.inner_conformity, inner), max(bearing.outer_conformity, outer)
     )
     size = bearing.ball_count * diameter**2 * per_ball
-    return size * (sin(angle) if thrust else cos(angle) / _STRIBECK)
+    return size * (sin(angle) if thrust else cos(angle) / STRIBECK)
 
 
 def dynamic_rating(bearing: BallBearing) -> float:
     """b_m f_c (cos alpha)^0.7 Z^(2/3) D^1.8, times tan(alpha) for thrust bearings."""
     angle, diameter = bearing.nominal_contact_angle, bearing.ball_diameter * 1e3
     grooves = bearing.inner_conformity, bearing.outer_conformity
-    size = diameter**1.8 if diameter <= _SIZE_LIMIT else 3.647 * diameter**1.4
-    size *= _B_M * bearing.ball_count ** (2.0 / 3.0) * cos(angle) ** 0.7
+    size = size_of(diameter) * bearing.ball_count ** (2.0 / 3.0) * cos(angle) ** 0.7
     if bearing.is_thrust:
         return size * tan(angle) * thrust_factor(bearing.gamma, angle, *grooves)
     return size * radial_factor(bearing.gamma, *grooves)
+
+
+def size_of(diameter: float) -> float:
+    """b_m times the power of a ball's diameter [mm] in C."""
+    return _B_M * (diameter**1.8 if diameter <= _SIZE_LIMIT else 3.647 * diameter**1.4)
 
 
 def factors(bearing: BallBearing, axial: float) -> tuple[float, float]:
@@ -131,7 +143,7 @@ def factors(bearing: BallBearing, axial: float) -> tuple[float, float]:
     angle = degrees(bearing.nominal_contact_angle)
     if bearing.is_thrust:
         return _at(angle, _THRUST_TABLE)
-    per_ball = static_factor(bearing.gamma, 0.52, 0.53) / _STRIBECK
+    per_ball = static_factor(bearing.gamma, 0.52, 0.53) / STRIBECK
     relative = per_ball * axial / bearing.static_rating
     flat = [
         (column, float(np.interp(relative, _RELATIVE_LOADS[column], _LIMITS[column])), x)

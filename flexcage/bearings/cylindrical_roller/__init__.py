@@ -1,23 +1,30 @@
-"""Single-row cylindrical roller bearings."""
+"""Single-row cylindrical and needle roller bearings."""
 
 from __future__ import annotations
 
 from flexcage.bearings.cylindrical_roller import slots
-from flexcage.bearings.cylindrical_roller.bearing import (
-    OTHER_DESIGNS,
-    RollerBearing,
-    RollerProfile,
+from flexcage.bearings.cylindrical_roller.bearing import OTHER_DESIGNS, RollerBearing
+from flexcage.bearings.cylindrical_roller.needle import (
+    DrawnCupNeedleRollerBearing,
+    NeedleRollerBearing,
 )
 from flexcage.bearings.cylindrical_roller.rules import RULES
 from flexcage.bearings.cylindrical_roller.spot import RollerSpot
 from flexcage.bearings.family import Family
+from flexcage.geometry.rollers import RollerProfile
 
 # specs that ``flexcage.spec`` shows
-__all__ = ["RollerBearing", "RollerProfile", "RollerSpot"]
+__all__ = [
+    "DrawnCupNeedleRollerBearing",
+    "NeedleRollerBearing",
+    "RollerBearing",
+    "RollerProfile",
+    "RollerSpot",
+]
 
 FAMILY = Family(
     name="cylindrical_roller",
-    types=(RollerBearing,),
+    types=(RollerBearing, NeedleRollerBearing, DrawnCupNeedleRollerBearing),
     rules=RULES,
     variables=lambda: slots.variables,
     speed=lambda: slots.speed,

@@ -1,8 +1,8 @@
-"""Cylindrical roller bearings: the spec, roller mass and inertia, and the roller profile."""
+"""Cylindrical roller bearings: the spec, roller mass and inertia."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import pi
@@ -25,6 +25,7 @@ from flexcage.geometry.film import Film, Oil, both_races, line_film, rolling_ent
 from flexcage.geometry.life.iso281 import ROLLERS, Endurance
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.other_kinds import SURROUNDINGS
+from flexcage.geometry.rollers import B_M, RollerProfile
 from flexcage.geometry.spall import BY_RACE, Spall
 
 if TYPE_CHECKING:
@@ -49,32 +50,6 @@ _MOST_PRESSED = 0.01  # of a roller's diameter, a hundred times what C0 leaves f
 
 
 @dataclass(frozen=True, kw_only=True)
-class RollerProfile:
-    """Profile of the roller's generatrix: the radial drop P(x) at axial distance x from its centre.
-
-    ``logarithmic``: ISO/TS 16281, P = 0.00035 Dw ln(1/(1-(2x/Lwe)^2)) for Lwe <= 2.5 Dw and its
-    long-roller form otherwise; ``crowned``: a circular arc of ``crown_radius``; ``straight``: 0.
-    """
-
-    kind: str = option("logarithmic", choices=("logarithmic", "crowned", "straight"))
-    crown_radius: float = quantity(
-        "m", 10.0, doc="radius of a crowned profile", above=0.0, when={"kind": ("crowned",)}
-    )
-
-    def drop(self, x: np.ndarray, *, diameter: float, length: float) -> np.ndarray:
-        """Radial drop [m] at |x| < length/2; infinite at the very end of a logarithmic profile."""
-        x = np.abs(np.asarray(x, float))
-        if self.kind == "straight":
-            return np.zeros_like(x)
-        if self.kind == "crowned":
-            return x**2 / (2.0 * self.crown_radius)
-        if length <= 2.5 * diameter:
-            return -0.00035 * diameter * np.log(1.0 - (2.0 * x / length) ** 2)
-        over = np.maximum(2.0 * x - (length - 2.5 * diameter), 0.0) / (2.5 * diameter)
-        return -0.0005 * diameter * np.log(1.0 - over**2)
-
-
-@dataclass(frozen=True, kw_only=True)
 class RollerBearing(Bearing):
     """A single-row cylindrical roller bearing; ``design`` says which of its rings have ribs.
 
@@ -87,6 +62,8 @@ class RollerBearing(Bearing):
     element: ClassVar[str] = "roller"
     family: ClassVar[str] = "cylindrical_roller"
     endurance: ClassVar[Endurance | None] = ROLLERS
+    rating_factor: ClassVar[float] = B_M  # of ISO 281
+    cage_between_ribs: ClassVar[bool] = False  # along the axis: it faces the races, not the ribs
     elsewhere: ClassVar[Mapping[str, str]] = {
         "(inner_|outer_)?(ribs?|flanges?)(_.*)?": BY_RIBS,
         **BY_RACE,
@@ -244,6 +221,14 @@ class RollerBearing(Bearing):
         assert diameter is not None and gap is not None  # see ``checks``
         return designs.Ribs(diameter, gap, self._counter_sides)
 
+    def cage_ribs(self, ring: str) -> designs.Ribs | None:
+        """Those of the ring that a cage faces across the axis."""
+        return None if self.cage_between_ribs else self.ribs(ring)
+
+    def impossible(self) -> Iterator[tuple[str, str]]:
+        """What else its type cannot have: where, and in a sentence."""
+        yield from ()
+
     @property
     def _counter_sides(self) -> tuple[bool, bool]:
         """Sides of the counter ribs. A single one of the inner ring pushes the rollers the way of
@@ -266,7 +251,7 @@ class RollerBearing(Bearing):
     @property
     def guides(self) -> Mapping[str, str]:
         own = {ring: f"the {ring} ring's {ribs.name}" for ring in designs.RINGS
-               if (ribs := self.ribs(ring))}  # fmt: skip
+               if (ribs := self.cage_ribs(ring))}  # fmt: skip
         return {**super().guides, **own}
 
     def free_axially(self, loaded: bool) -> bool:
@@ -288,17 +273,22 @@ class RollerBearing(Bearing):
             f'"{towards}" turns it round, and the design NUP carries both'
         )
 
+    @property
+    def ring_bore(self) -> float:
+        """Bore [m] of what lies inside the inner race: the ring, or without it the solid shaft."""
+        return self.bore if self.has_inner_ring else 0.0
+
     @cached_property
     def inner_ring_mass(self) -> float:
         """Inner ring as a hollow cylinder from bore to race, without ribs [kg]."""
-        area = 0.25 * pi * (self.inner_race_diameter**2 - self.bore**2)
+        area = 0.25 * pi * (self.inner_race_diameter**2 - self.ring_bore**2)
         return self.material.density * area * self.width
 
     @cached_property
     def inner_ring_inertia(self) -> tuple[float, float]:
         """Axial and transverse moments of inertia of that hollow cylinder [kg m^2]."""
         return hollow_cylinder_inertia(
-            self.inner_ring_mass, self.bore, self.inner_race_diameter, self.width
+            self.inner_ring_mass, self.ring_bore, self.inner_race_diameter, self.width
         )
 
     @cached_property

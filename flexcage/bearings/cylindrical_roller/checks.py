@@ -39,6 +39,7 @@ def check(bearing: RollerBearing, cage: Cage | None, defects: Sequence[Any]) -> 
 def find_in_bearing(b: RollerBearing) -> Iterator[Finding]:
     """What is impossible in the bearing alone."""
     yield from _find_in_design(b)
+    yield from b.impossible()
     rising = _diameters(b)
     for (small, low), (large, high) in zip(rising, rising[1:]):
         if not low < high:
@@ -113,6 +114,12 @@ def find_around_cage(b: RollerBearing, c: Cage) -> Iterator[Finding]:
             "cage.width",
             f"cage.width is {mm(c.width)}, wider than the bearing, {mm(b.width)}.",
         )
+    if b.cage_between_ribs and c.width >= b.rib_gap:
+        yield (
+            "cage.width",
+            f"cage.width is {mm(c.width)}, but the cage lies between the ribs, {mm(b.rib_gap)} "
+            "apart (bearing.rib_gap); make it narrower.",
+        )
     inner, outer = lands.limits(b, c)
     if c.bore <= inner.diameter:
         yield (
@@ -155,8 +162,9 @@ def _diameters(b: RollerBearing) -> list[tuple[str, float]]:
     """Names and values of the fields that must rise from the bore to the outside diameter."""
     guide, counter = ("rib_diameter", b.rib_diameter), _counter(b)
     ribs = [guide, *counter] if designs.DESIGNS[b.design].guide == "inner" else [*counter, guide]
+    bore = [("bore", b.bore)] if b.has_inner_ring else []
     return [
-        ("bore", b.bore),
+        *bore,
         ("inner_race_diameter", b.inner_race_diameter),
         *ribs,
         ("outer_race_diameter", b.outer_race_diameter),

@@ -28,6 +28,11 @@ def _rib_peak(part: SettledRun) -> Found | None:
     return None if force is None else Found(float(force.max()), idle=not force.any())
 
 
+def _skew(part: SettledRun) -> Found:
+    skew = part.ds["element_tilt"].sel(tilt="skew").transpose("time", "element").values
+    return Found(part.windows.mean(np.abs(skew).max(axis=1)))
+
+
 # fmt: off
 SPEEDS = FigureTable[SettledRun]("Speeds")
 SPEEDS.add("roller_spin", "Roller spin, mean of all", "rpm",
@@ -43,6 +48,9 @@ SLIP.add("sliding_inner_unloaded", "Sliding, inner race, unloaded", "m/s",
 SLIP.add("sliding_outer_unloaded", "Sliding, outer race, unloaded", "m/s",
          "mean sliding speed of unloaded rollers", "signed",
          take=lambda part: part.sliding_unloaded[1])
+SPEEDS.add("roller_skew", "Roller skew, largest", "mrad",
+           "of all rollers' axes against the bearing's, in the tangent plane; mean over time",
+           "statistic", take=_skew)
 FORCES = FigureTable[SettledRun]("Forces")
 FORCES.add("axial_through_ribs", "Axial load through ribs, mean", "N",
            "from ring to ring through all rollers; zero of the designs N and NU", "statistic",

@@ -7,15 +7,19 @@ midway between bore and outside: this tells the rollers' diameter; C0 tells thei
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from math import ceil
 
 from flexcage.bearings.cylindrical_roller import inference
+from flexcage.bearings.cylindrical_roller.needle_inference import TYPES
+from flexcage.bearings.cylindrical_roller.needle_inference import candidates as needles
 from flexcage.core.errors import InputError
 from flexcage.core.units import describe
 from flexcage.geometry.full_complement import elements_around, filling_count, reason_of_count
 from flexcage.geometry.inference import Candidate, Inference, Outline
+
+Rule = Callable[[Outline], Sequence[Candidate]]
 
 _LONGEST = 2.0  # length over diameter of rollers
 _THINNEST = 0.15  # of a ring at its race, over the roller's diameter
@@ -91,9 +95,14 @@ def _reasons(outline: Outline, made: Candidate) -> dict[str, str]:
     return reasons
 
 
+def _by_type(cylindrical: Rule) -> Rule:
+    """The rule of a type: the same one of needles, with a cage and without."""
+    return lambda outline: needles(outline) if outline.type in TYPES else cylindrical(outline)
+
+
 INFERENCE = Inference(
-    candidates=inference.candidates,
-    cages={"cylindrical_roller": "window"},
+    candidates=_by_type(inference.candidates),
+    cages=dict.fromkeys(("cylindrical_roller", *TYPES), "window"),
     count="roller_count",
-    full=candidates,
+    full=_by_type(candidates),
 )

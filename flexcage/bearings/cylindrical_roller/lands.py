@@ -10,7 +10,7 @@ from flexcage.geometry.cage import Cage, RingLimit
 
 def limit(b: RollerBearing, ring: str) -> RingLimit:
     """What of the "inner" or "outer" ring the cage meets first."""
-    ribs = b.ribs(ring)
+    ribs = b.cage_ribs(ring)
     if ribs is None:
         radius = b.outer_race_radius if ring == "outer" else b.inner_race_radius
         return RingLimit(2.0 * radius, f"the {ring} race")
@@ -27,7 +27,7 @@ def land(b: RollerBearing, cage: Cage) -> RingLand:
     end, or none: a single rib makes none."""
     ring, outer = cage.land_ring, cage.land_ring == "outer"
     begin, end = cage.pocket_reach, 0.5 * min(cage.width, b.width)
-    ribs, met = b.ribs(ring), limit(b, ring).diameter
+    ribs, met = b.cage_ribs(ring), limit(b, ring).diameter
     own, size = (
         ("cage.outside_diameter", cage.outside_diameter) if outer else ("cage.bore", cage.bore)
     )

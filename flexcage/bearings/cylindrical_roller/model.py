@@ -73,12 +73,9 @@ class RollerModel(NamedTuple):
 
 def slice_grid(bearing: RollerBearing, slices: int) -> tuple[np.ndarray, np.ndarray]:
     """Slice centres (n,) on the effective length, and the profile's drop there (n,) [m]."""
-    width = bearing.effective_length / slices
-    s = (np.arange(slices) + 0.5) * width - 0.5 * bearing.effective_length
-    drop = bearing.profile.drop(
-        s, diameter=bearing.roller_diameter, length=bearing.effective_length
+    return bearing.profile.slices(
+        slices, diameter=bearing.roller_diameter, length=bearing.effective_length
     )
-    return s, drop
 
 
 def _race_side(bearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool) -> RaceSide:
@@ -193,16 +190,20 @@ def _pocket_laws(bearing, cage, contacts: Contacts, interface: CageInterface) ->
     ])  # fmt: skip
 
 
-def _rib_data(bearing: RollerBearing, contacts: Contacts, ring: str) -> RibData:
-    """Ribs of the "inner" or "outer" ring; those that guide the rollers come first in arrays."""
+def _rib_data(
+    bearing: RollerBearing, cage: WindowCage | None, contacts: Contacts, ring: str
+) -> RibData:
+    """Ribs of the "inner" or "outer" ring; those that guide the rollers come first in arrays. A
+    cage between them takes the width of its side beams."""
     ribs, guides = bearing.ribs(ring), ring == DESIGNS[bearing.design].guide
     points = rib_points(bearing, ring) if ribs else np.zeros((0, 2))
     plus, minus = ribs.sides if ribs else (False, False)
+    beams = cage.side_beam_width if cage and bearing.cage_between_ribs else 0.0
     return RibData(
         first=0 if plus else 1,
         end=2 if minus else int(plus),
         column=0 if guides else 2,
-        half_gap=0.5 * ribs.gap if ribs else np.inf,
+        half_gap=0.5 * ribs.gap - beams if ribs else np.inf,
         half_roller=0.5 * bearing.roller_length,
         points=points,
         normal=laws.normal_parameters(
@@ -285,8 +286,8 @@ def build_roller_model(
         cage=unbalanced(body, cage).data if cage else no_body().data,
         inner=_race_side(bearing, contacts, lubricant, inner=True),
         outer=_race_side(bearing, contacts, lubricant, inner=False),
-        rib=_rib_data(bearing, contacts, "inner"),
-        outer_rib=_rib_data(bearing, contacts, "outer"),
+        rib=_rib_data(bearing, cage, contacts, "inner"),
+        outer_rib=_rib_data(bearing, cage, contacts, "outer"),
         pocket=(
             _pocket_data(bearing, cage, contacts, interface) if cage
             else no_pockets(bearing.roller_count, 0.5 * bearing.roller_length)

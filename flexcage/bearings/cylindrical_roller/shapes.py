@@ -9,7 +9,7 @@ from flexcage.render.shapes import Profile, Shapes
 
 def roller_shapes(b: RollerBearing) -> Shapes:
     """Rings with the ribs of the design, and a roller with chamfers."""
-    half, bore, outside = 0.5 * b.width, 0.5 * b.bore, 0.5 * b.outside_diameter
+    half, bore, outside = 0.5 * b.width, 0.5 * b.ring_bore, 0.5 * b.outside_diameter
     r, end, c = 0.5 * b.roller_diameter, 0.5 * b.roller_length, 0.05 * b.roller_diameter
     inner, outer = _surface(b, "inner"), _surface(b, "outer")
     return Shapes(

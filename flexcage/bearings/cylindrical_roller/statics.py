@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import inf, pi
 
 import numpy as np
 from scipy.optimize import brentq
@@ -22,13 +21,16 @@ from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
 from flexcage.bearings.cylindrical_roller.rib_statics import RibPairs, rib_pairs
 from flexcage.contacts.spec import Contacts
 from flexcage.geometry.kinematics import epicyclic
+from flexcage.geometry.rollers import LINE_EXPONENT as EXPONENT
+from flexcage.geometry.rollers import (
+    STATIC_PRESSURE,
+    line_pressure,
+    reference_life,
+    roller_ratings,
+)
 from flexcage.system.statics.elements import ElementLoads, Response, azimuths
 from flexcage.system.statics.laws import check_law
 from flexcage.system.statics.options import StaticOptions
-
-EXPONENT = 10.0 / 9.0
-# ISO/TS 16281:2008: ratings of one roller, and lambda nu of radial roller bearings
-_INNER, _OUTER, _LAMBDA_NU, _SPREAD = 0.378, 0.364, 0.83, 1.038
 
 
 def rollers_of(
@@ -78,7 +80,7 @@ class Rollers:
     rating: float
     ribs: RibPairs | None
     conservative = True
-    pressure_limit = 4.0e9  # ISO 76, roller bearings
+    pressure_limit = STATIC_PRESSURE
 
     @property
     def carries(self) -> tuple[bool, ...]:
@@ -167,14 +169,13 @@ class Rollers:
         radius, half = 0.5 * b.roller_diameter, 0.5 * b.effective_length
         races = np.array([b.inner_race_radius, b.outer_race_radius])
         curved = radius * races / (races + np.array([radius, -radius]))
-        modulus = 0.5 * b.race_modulus
-        width = np.sqrt(4.0 * line * curved / (pi * modulus))  # Johnson 4.43
+        pressure, width = line_pressure(line, curved, b.race_modulus)
         loaded = slices > 0.0
         return ElementLoads(
             azimuth=self.azimuth,
             force=force,
             angle=np.where(force > 0.0, 0.0, np.nan),
-            pressure=np.sqrt(line * modulus / (pi * curved)),  # Johnson 4.45
+            pressure=pressure,
             across=half * loaded.mean(axis=2),
             along=width,
             edge=np.full((Z, 2), -np.inf),
@@ -189,31 +190,6 @@ class Rollers:
         """Slices bear only where there is a race."""
 
     def reference_life(self, v: np.ndarray, w: np.ndarray) -> float:
-        inner, outer = self.slice_forces(v, w)
-        if not max(inner.max(), outer.max()) > 0.0:
-            return inf
-        n = len(self.places)
-        edges = edge_stress(n)
-        ratings = [q * n ** (-7.0 / 9.0) for q in self._roller_ratings()]
-        on_inner = np.mean((edges * inner) ** 4.0, axis=0) ** 0.25  # it turns under the load
-        on_outer = np.mean((edges * outer) ** 4.5, axis=0) ** (1.0 / 4.5)  # it stands
-        worn = (on_inner / ratings[0]) ** 4.5 + (on_outer / ratings[1]) ** 4.5
-        return float(worn.sum() ** (-8.0 / 9.0))
-
-    def _roller_ratings(self) -> tuple[float, float]:
-        """Loads [N] of one roller that inner and outer race bear for 10^6 revolutions."""
         b = self.bearing
-        share = (_SPREAD * ((1.0 - b.gamma) / (1.0 + b.gamma)) ** (143.0 / 108.0)) ** 4.5
-        one = self.rating / (_LAMBDA_NU * b.roller_count)
-        return (
-            one / _INNER * (1.0 + share) ** (2.0 / 9.0),
-            one / _OUTER * (1.0 + 1.0 / share) ** (2.0 / 9.0),
-        )
-
-
-def edge_stress(slices: int) -> np.ndarray:
-    """Stress riser (n,) of ISO/TS 16281 on the slices of a line contact, largest at its ends."""
-    k = np.arange(1, slices + 1)
-    place = np.abs(2.0 * k - slices - 1.0) / (2.0 * slices - 2.0)
-    middle = place == 0.0
-    return 1.0 - np.where(middle, 0.0, 0.01 / np.log(1.985 * np.where(middle, 0.25, place)))
+        ratings = roller_ratings(self.rating, b.roller_count, b.gamma)
+        return reference_life(*self.slice_forces(v, w), ratings)

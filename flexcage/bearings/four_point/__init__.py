@@ -22,4 +22,5 @@ FAMILY = Family(
     rubbing=lambda: slots.rubbing,
     shapes=lambda: slots.shapes,
     inside=lambda: slots.inside,
+    built_on="ball",
 )

@@ -1,4 +1,5 @@
-"""Tables of catalogues, as CSV files."""
+"""Tables of catalogues, as CSV files: those that all bearings share, and those of a family's own
+package (``Family.catalogue``), which has the same tables or some of them."""
 
 from __future__ import annotations
 
@@ -6,11 +7,16 @@ import csv
 from collections.abc import Iterator
 from importlib import resources
 
+from flexcage.core.wings import FAMILIES
+
 
 def rows(name: str) -> Iterator[dict[str, str]]:
     """Rows of a table, texts by the names of its columns."""
-    file = resources.files("flexcage.case.catalogues") / f"{name}.csv"
-    return csv.DictReader(file.read_text("utf-8").splitlines())
+    own = [family.catalogue for family in FAMILIES.values() if family.catalogue]
+    for package in ("flexcage.case.catalogues", *own):
+        file = resources.files(package) / f"{name}.csv"
+        if file.is_file():
+            yield from csv.DictReader(file.read_text("utf-8").splitlines())
 
 
 def clearance_limits(kind: str, bore: float, group: str) -> tuple[float, float] | None:

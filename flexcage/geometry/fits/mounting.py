@@ -1,5 +1,6 @@
 """What fits, warmth and speed leave of a bearing's clearance, part by part.
 
+Without an inner ring the shaft is the race and brings its own deviation from its nominal size.
 Each ring is taken as a cylinder with its bore, or outside diameter, and the area of its section;
 shaft and housing are cylinders as long. An interference, after smoothing, presses ring and seat
 (``cylinders``); a body that is warmer than at assembly grows by its coefficient of expansion, an
@@ -11,7 +12,7 @@ toleranced, then smoothed, then warm, then turning.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -46,6 +47,7 @@ class Grip:
     interference: Three
     operating: Three
     pressure: Three
+    is_race: bool = False  # of a shaft on which elements run: by how much it is larger than F
 
 
 @dataclass(frozen=True)
@@ -53,8 +55,8 @@ class Mounting:
     """Clearance from before mounting to operation: ``parts`` add up to the last one, the clearance
     in operation. ``taken``: which of the three values the bearing then has (``fit.at``);
     ``changed``: what follows of it. ``angles``: free contact angle [rad] before and in operation,
-    and ``approach`` [m] by which the inner ring meets the balls earlier along the axis, of bearings
-    whose clearance is a contact angle; None otherwise."""
+    of bearings whose clearance is one, and ``approach`` [m] by which the inner ring meets the
+    elements earlier along the axis, of those that have a place of first contact; None otherwise."""
 
     parts: tuple[Part, ...]
     inner: Grip
@@ -103,6 +105,21 @@ class Seat:
         return grown + self.ring.pressed(self.race, **pressed), left, pressure
 
 
+@dataclass(frozen=True)
+class ShaftRace:
+    """A shaft of a ``diameter`` [m] on which elements run, without an inner ring."""
+
+    shaft: Cylinder
+    diameter: float
+    strain: float
+
+    def joined(self, larger: float, *, warm: bool, speed: float) -> Three:
+        """Growth [m] of a shaft that is ``larger`` [m] than its nominal size, how much larger it
+        is, and no pressure."""
+        grown = larger + (self.strain * self.diameter if warm else 0.0)
+        return grown + self.shaft.spun(self.diameter, speed), larger, 0.0
+
+
 def mount(
     bearing: Bearing, fit: Fit, initial: Three, walls: tuple[float, float], speed: float
 ) -> Mounting:
@@ -124,9 +141,10 @@ def mount(
         )
     ]  # fmt: skip
     grips = [
-        Grip(given, *(_three(joint[k] for joint in joints) for k in (1, 2)))
+        Grip(given, _three(j[1] for j in joints), _three(j[2] for j in joints))
         for given, joints in zip(toleranced, _joints(seats, kept, warm=True, speed=speed))
     ]
+    grips[0] = replace(grips[0], is_race=not bearing.has_inner_ring)
     parts = _parts(initial, steps)
     taken = ("least", "mean", "largest").index(fit.at)
     changed = Changed(
@@ -135,6 +153,9 @@ def mount(
         initial=initial[taken], clearance=parts[-1].values[taken],
     )  # fmt: skip
     return Mounting(parts, grips[0], grips[1], taken, changed, speed)
+
+
+Seats = tuple[Seat | ShaftRace, Seat]  # of inner and outer ring
 
 
 @dataclass(frozen=True)
@@ -151,9 +172,7 @@ class _Step:
         return _three(o - i - 2.0 * self.element for i, o in zip(self.inner, self.outer))
 
 
-def _joints(
-    seats: tuple[Seat, Seat], fits: Sequence[Three], *, warm: bool, speed: float
-) -> list[list[Three]]:
+def _joints(seats: Seats, fits: Sequence[Three], *, warm: bool, speed: float) -> list[list[Three]]:
     """Of inner and outer ring, the three joints; only the inner ring turns."""
     return [
         [seat.joined(i, warm=warm, speed=turning) for i in three]
@@ -162,7 +181,7 @@ def _joints(
 
 
 def _joined(
-    seats: tuple[Seat, Seat], fits: Sequence[Three], element: float, *, warm: bool, speed: float
+    seats: Seats, fits: Sequence[Three], element: float, *, warm: bool, speed: float
 ) -> _Step:
     inner, outer = (
         _three(joint[0] for joint in joints)
@@ -220,14 +239,17 @@ def _strains(bearing: Bearing, fit: Fit) -> Mapping[str, float]:
 
 def _seats(
     bearing: Bearing, fit: Fit, walls: tuple[float, float], strains: Mapping[str, float]
-) -> tuple[Seat, Seat]:
+) -> Seats:
     d, outside, own = bearing.bore, bearing.outside_diameter, bearing.material
     inner_race, outer_race = bearing.race_diameters
     thick = inf if fit.housing_thickness is None else outside + 2.0 * fit.housing_thickness
-    inner = Seat(
-        Cylinder(d, walls[0], own), Cylinder(fit.shaft_bore, d, fit.shaft_material), d, inner_race,
-        1.0, strains["inner"], strains["shaft"],
-    )  # fmt: skip
+    shaft = Cylinder(fit.shaft_bore, d, fit.shaft_material)
+    inner: Seat | ShaftRace = ShaftRace(shaft, d, strains["shaft"])
+    if bearing.has_inner_ring:
+        inner = Seat(
+            Cylinder(d, walls[0], own), shaft, d, inner_race, 1.0, strains["inner"],
+            strains["shaft"],
+        )  # fmt: skip
     outer = Seat(
         Cylinder(walls[1], outside, own), Cylinder(outside, thick, fit.housing_material), outside,
         outer_race, -1.0, strains["outer"], strains["housing"],
@@ -240,6 +262,8 @@ def _on_shaft(bearing: Bearing, fit: Fit) -> Three:
     if fit.shaft_interference is not None or not fit.shaft:
         return (fit.shaft_interference or 0.0,) * 3
     shaft = shaft_limits(fit.shaft, bearing.bore, "fit.shaft")
+    if not bearing.has_inner_ring:
+        return _of_limits(shaft, (0.0, 0.0))
     return _of_limits(shaft, bearing_limits(bearing.bore, outside=False, where="fit.shaft"))
 
 
@@ -257,21 +281,19 @@ def _of_limits(inside: tuple[float, float], hole: tuple[float, float]) -> Three:
     return largest, 0.5 * (least + largest), least
 
 
-def _all_smoothed(
-    fit: Fit, seats: tuple[Seat, Seat], toleranced: tuple[Three, Three]
-) -> list[Three]:
+def _all_smoothed(fit: Fit, seats: Seats, toleranced: tuple[Three, Three]) -> list[Three]:
     rough = fit.shaft_roughness, fit.housing_roughness
     return [
-        _three(_smoothed(fit, seat.diameter, i, of_seat) for i in three)
+        _three(_smoothed(fit, seat, i, of_seat) for i in three)
         for seat, three, of_seat in zip(seats, toleranced, rough)
     ]
 
 
-def _smoothed(fit: Fit, diameter: float, interference: float, roughness: float) -> float:
-    """What pressing leaves of an interference [m]; a gap stays."""
-    if interference <= 0.0:
+def _smoothed(fit: Fit, seat: Seat | ShaftRace, interference: float, roughness: float) -> float:
+    """What pressing leaves of an interference [m]; a gap, and a shaft without a ring, stay."""
+    if interference <= 0.0 or isinstance(seat, ShaftRace):
         return interference
     if fit.smoothing == ROUGH:
         return max(interference - _SMOOTHED * (roughness + fit.bearing_roughness), 0.0)
-    size = 1e3 * diameter
+    size = 1e3 * seat.diameter
     return interference * size / (size + SMOOTHINGS[fit.smoothing])

@@ -16,15 +16,15 @@ def clearance_note(mounting: Mounting) -> str:
     parts = [
         f"Radial clearance in um{turning}: least and largest are of the limits of all tolerances, "
         f"of which the bearing has the {taken} (fit.at)",
-        f"Inner ring on its shaft: {_grip(mounting.inner, mounting.taken)}",
+        _inner(mounting.inner, mounting.taken),
         f"Outer ring in its housing: {_grip(mounting.outer, mounting.taken)}",
     ]
-    if mounting.angles is not None and mounting.approach is not None:
+    if mounting.approach is not None:
+        meets = f"he inner ring meets its elements {um(mounting.approach)} earlier along the axis"
+        if mounting.angles is None:
+            return "\n".join([*parts, f"T{meets}"])
         before, after = (f"{degrees(angle):.4g} deg" for angle in mounting.angles)
-        parts.append(
-            f"Free contact angle {before} before mounting, {after} in operation: the inner ring "
-            f"meets its balls {um(mounting.approach)} earlier along the axis"
-        )
+        parts.append(f"Free contact angle {before} before mounting, {after} in operation: t{meets}")
     return "\n".join(parts)
 
 
@@ -36,6 +36,12 @@ def clearance_lines(mounting: Mounting) -> list[list[str]]:
     return lines + [
         [part.title, *(_column(part.values[k]) for k in kept)] for part in mounting.parts
     ]
+
+
+def _inner(grip: Grip, k: int) -> str:
+    if grip.is_race:
+        return f"Shaft, which is the inner race: {um(grip.interference[k])} beyond its nominal size"
+    return f"Inner ring on its shaft: {_grip(grip, k)}"
 
 
 def _grip(grip: Grip, k: int) -> str:

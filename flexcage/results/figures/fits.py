@@ -45,5 +45,5 @@ FITS.add("fit_contact_angle", "Free contact angle, in operation", "deg",
          "of angular contact bearings",
          take=lambda m: None if m.angles is None else m.angles[1])
 FITS.add("fit_approach", "Inner ring's approach", "um",
-         "by which it meets its balls earlier along the axis, of angular contact bearings",
+         "by which it meets its elements earlier along the axis, of angular contact bearings",
          "signed", take=lambda m: m.approach)

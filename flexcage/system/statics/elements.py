@@ -1,8 +1,9 @@
 """What a bearing family supplies to the static solution: its rolling elements between two rings.
 
-An element feels the displacement v of the inner ring at its azimuth and has two coordinates w of
-its own. It answers with the forces that the ring must exert on it, with the unbalance of its own
-forces, and with their exact derivatives. Nothing else here knows balls from rollers.
+An element feels the displacement v of the inner ring at its azimuth and has coordinates w of its
+own: n of them, mostly two. It answers with the forces that the ring must exert on it, with the
+unbalance of its own forces, and with their exact derivatives. Nothing else here knows balls from
+rollers.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from flexcage.system.statics.options import StaticOptions
 
 @dataclass(frozen=True)
 class Response:
-    """Forces of all elements at given displacements; Z elements, two coordinates w each.
+    """Forces of all elements at given displacements; Z elements, n coordinates w each.
 
     v: axial and radial displacement [m] of the inner ring at the element's azimuth and its tilt
     [rad] about the tangent there. ``ring``: what the ring exerts along v; ``unbalance``: of the
@@ -29,11 +30,11 @@ class Response:
 
     energy: np.ndarray  # (Z,)
     ring: np.ndarray  # (Z, 3)
-    unbalance: np.ndarray  # (Z, 2)
+    unbalance: np.ndarray  # (Z, n)
     ring_v: np.ndarray  # (Z, 3, 3)
-    ring_w: np.ndarray  # (Z, 3, 2)
-    unbalance_v: np.ndarray  # (Z, 2, 3)
-    unbalance_w: np.ndarray  # (Z, 2, 2)
+    ring_w: np.ndarray  # (Z, 3, n)
+    unbalance_v: np.ndarray  # (Z, n, 3)
+    unbalance_w: np.ndarray  # (Z, n, n)
 
 
 @dataclass(frozen=True)
@@ -84,16 +85,16 @@ class Elements(Protocol):
         ...
 
     def guesses(self, v: np.ndarray) -> list[np.ndarray]:
-        """Coordinates w (Z, 2) from which equilibrium at v (Z, 3) may be near, one or more."""
+        """Coordinates w (Z, n) from which equilibrium at v (Z, 3) may be near, one or more."""
         ...
 
     def moved(self, w: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """Coordinates (Z, 2) after a step of Newton's method from w, along the way that forces
+        """Coordinates (Z, n) after a step of Newton's method from w, along the way that forces
         leave free; w + step to first order."""
         ...
 
     def respond(self, v: np.ndarray, w: np.ndarray, share: float) -> Response:
-        """Response at v (Z, 3) and w (Z, 2); ``share`` of what is not conservative, 0 to 1."""
+        """Response at v (Z, 3) and w (Z, n); ``share`` of what is not conservative, 0 to 1."""
         ...
 
     def loads(self, v: np.ndarray, w: np.ndarray) -> ElementLoads:

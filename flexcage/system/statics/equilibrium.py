@@ -105,7 +105,7 @@ class Posture:
 
     ring: np.ndarray
     v: np.ndarray  # (Z, 3) displacements that the elements feel
-    own: np.ndarray  # (Z, 2) coordinates of the elements
+    own: np.ndarray  # (Z, n) coordinates of the elements
     response: Response
     force: np.ndarray  # (5,) that the elements bear
     unbalanced: float  # largest force left over, as a share of the load; inf: none settled
@@ -243,7 +243,7 @@ def _bend(
 
 
 def nearest(problem: Problem, v: np.ndarray, own: np.ndarray | None, share: float) -> np.ndarray:
-    """Coordinates (Z, 2) from which to settle: the present ones, or guesses of less energy."""
+    """Coordinates (Z, n) from which to settle: the present ones, or guesses of less energy."""
     if own is not None and share > 0.0:
         return own
     choices = problem.elements.guesses(v) + ([] if own is None else [own])
@@ -254,7 +254,7 @@ def nearest(problem: Problem, v: np.ndarray, own: np.ndarray | None, share: floa
 def settle(
     problem: Problem, v: np.ndarray, w: np.ndarray, share: float
 ) -> tuple[np.ndarray, Response, float]:
-    """Elements in equilibrium at displacements v (Z, 3) of the ring, sought from w (Z, 2).
+    """Elements in equilibrium at displacements v (Z, 3) of the ring, sought from w (Z, n).
 
     Their coordinates w, their response, and the largest force left over, as a share of the load.
     """
@@ -266,7 +266,7 @@ def settle(
         going = (left > least) & ~stuck
         if not going.any():
             break
-        stiffness = r.unbalance_w + problem.soft * np.eye(2)
+        stiffness = r.unbalance_w + problem.soft * np.eye(w.shape[1])
         step = -np.linalg.solve(stiffness, r.unbalance[..., None])[..., 0]
         slope = (step * r.unbalance).sum(axis=1)
         far = np.abs(step).max(axis=1)

@@ -108,8 +108,9 @@ def _frequencies(bearing: Bearing, loads: ElementLoads, speed: float) -> list[di
         return [{}, {}]
     both = (loads.force > 0.0).all(axis=1) & np.isfinite(loads.angle).all(axis=1)
     mean = np.abs(loads.angle[both]).mean(axis=0) if both.any() else np.full(2, nominal)
+    borne = bearing.rolling_angles((float(mean[0]), float(mean[1])))
     found = []
-    for inner, outer in ((float(mean[0]), float(mean[1])), (nominal, nominal)):
+    for inner, outer in (borne, (nominal, nominal)):
         rolling = epicyclic(
             element_diameter=size, pitch_diameter=bearing.pitch_diameter,
             element_count=bearing.element_count, inner_speed=speed,

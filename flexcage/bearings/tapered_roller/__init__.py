@@ -1,0 +1,29 @@
+"""Single-row tapered roller bearings."""
+
+from __future__ import annotations
+
+from flexcage.bearings.family import Family
+from flexcage.bearings.tapered_roller import slots
+from flexcage.bearings.tapered_roller.bearing import TaperedRollerBearing
+from flexcage.bearings.tapered_roller.rules import RULES
+from flexcage.geometry.rollers import RollerProfile
+
+# specs that ``flexcage.spec`` shows
+__all__ = ["RollerProfile", "TaperedRollerBearing"]
+
+FAMILY = Family(
+    name="tapered_roller",
+    types=(TaperedRollerBearing,),
+    rules=RULES,
+    statics=lambda: slots.statics,
+    motion=None,
+    recording=None,
+    variables=None,
+    speed=None,
+    figures=None,
+    rubbing=None,
+    shapes=None,
+    losses=lambda: slots.losses,
+    inside=lambda: slots.inside,
+    catalogue="flexcage.bearings.tapered_roller.catalogue",
+)

@@ -1,0 +1,307 @@
+"""Tapered roller bearings: the spec, the cones, mass and inertia of a roller.
+
+Both races and all rollers are cones with one apex on the bearing's axis, so that everything rolls
+along whole lines (T. A. Harris, Rolling Bearing Analysis, chapters on geometry and on speeds). The
+apex is at +x: an axial load > 0 pushes the inner ring (cone) towards it, into the outer ring (cup).
+The origin is on the axis, in the plane of the rollers' middles. Their large ends, at -x, are
+spheres that bear on the inner ring's large rib.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import atan, cos, pi, sin, sqrt
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+
+from flexcage.bearings.tapered_roller.frustum import Frustum
+from flexcage.cages.window.cage import WindowCage
+from flexcage.core.spec import option, quantity
+from flexcage.core.units import typeset
+from flexcage.geometry.bearing import Bearing, Spec, hollow_cylinder_inertia, type_name
+from flexcage.geometry.film import Film, Oil, both_races, line_film, rolling_entrainment
+from flexcage.geometry.hertz import PointContact
+from flexcage.geometry.life.iso281 import ROLLERS, Endurance
+from flexcage.geometry.materials import MATERIALS, Material
+from flexcage.geometry.other_kinds import SURROUNDINGS
+from flexcage.geometry.rollers import RollerProfile
+
+if TYPE_CHECKING:
+    from flexcage.geometry.fits.changed import Changed
+
+BY_ANGLE = "a tapered roller bearing's contact angle is that of the outer race (cup): contact_angle"
+FIRST_CONTACT = (
+    "displacements of a tapered roller bearing count from first contact: give its preload as "
+    "load.axial"
+)
+
+_MOST_PRESSED = 0.01  # of a roller's diameter, a hundred times what C0 leaves for good (ISO 76)
+
+
+@dataclass(frozen=True, kw_only=True)
+class TaperedRollerBearing(Bearing):
+    """A single-row tapered roller bearing; displacements count from first contact.
+
+    The rollers' half angle follows from their mean diameter, the pitch diameter and the contact
+    angle, as all cones share one apex.
+    """
+
+    kind: ClassVar[str] = "tapered roller bearing"
+    cage_spec: ClassVar[Spec] = WindowCage
+    element: ClassVar[str] = "tapered roller"
+    family: ClassVar[str] = "tapered_roller"
+    places: ClassVar[tuple[str, ...]] = ("race", "rib")
+    sliced: ClassVar[tuple[str, ...]] = ("race",)
+    endurance: ClassVar[Endurance | None] = ROLLERS
+    carries_axial_load: ClassVar[bool] = True
+    elsewhere: ClassVar[Mapping[str, str]] = {
+        "(cup|cone|half|outer|inner|taper).?angle": BY_ANGLE,
+        "(radial|axial)_clearance|end_play": FIRST_CONTACT,
+        **SURROUNDINGS,
+    }
+
+    type: str = type_name("tapered_roller")
+    bore: float = quantity("mm", doc="bearing bore d", above=0.0)
+    outside_diameter: float = quantity("mm", doc="bearing outside diameter D", above=0.0)
+    width: float = quantity("mm", doc="width T of the bearing, over both rings", above=0.0)
+    inner_width: float = quantity("mm", doc="width B of the inner ring (cone)", above=0.0)
+    outer_width: float = quantity("mm", doc="width C of the outer ring (cup)", above=0.0)
+    contact_angle: float = quantity(
+        "deg", doc="half angle of the outer race, the contact angle of ISO 281", above=0.0,
+        maximum=0.25 * pi,
+    )  # fmt: skip
+    pitch_diameter: float = quantity(
+        "mm", doc="diameter Dpw of the circle of the rollers' middles", above=0.0
+    )
+    roller_diameter: float = quantity(
+        "mm", doc="mean diameter Dwe of a roller, at mid-length", above=0.0
+    )
+    roller_length: float = quantity("mm", doc="length Lw of a roller, overall", above=0.0)
+    effective_length: float = quantity(
+        "mm", doc="length Lwe of a roller without end chamfers", above=0.0
+    )
+    roller_count: int = option(doc="number Z of rollers", minimum=3)
+    rib_height: float = quantity(
+        "mm",
+        doc="height of the large rib over the inner race at the rollers' large ends",
+        above=0.0,
+    )
+    end_radius: float = quantity(
+        "mm", doc="radius of the sphere that a roller's large end is part of", above=0.0
+    )
+    profile: RollerProfile = option(RollerProfile(), doc="roller profile")
+    material: Material = option(MATERIALS["GCr15"], doc="material of the rings, and of the rollers")
+    element_material: Material | None = option(
+        None, doc="material of the rollers, as Si3N4 (default: bearing.material)"
+    )
+
+    @cached_property
+    def half_angle(self) -> float:
+        """Half angle eps [rad] of a roller: tan(eps) = Dwe/Dpw sin(alpha - eps)."""
+        ratio, angle, before = self.roller_diameter / self.pitch_diameter, 0.0, -1.0
+        for _ in range(200):  # a contraction, as long as the ratio is below 1
+            if angle == before:
+                break
+            before, angle = angle, atan(ratio * sin(self.contact_angle - angle))
+        return angle
+
+    @property
+    def axis_angle(self) -> float:
+        """Angle [rad] between a roller's axis and the bearing's."""
+        return self.contact_angle - self.half_angle
+
+    @property
+    def race_angles(self) -> tuple[float, float]:
+        """Half angles [rad] of inner and outer race, at which they touch rollers."""
+        return self.axis_angle - self.half_angle, self.contact_angle
+
+    @property
+    def apex_distance(self) -> float:
+        """Distance [m] of the apex from a roller's middle."""
+        return 0.5 * self.pitch_diameter / sin(self.axis_angle)
+
+    @property
+    def pitch_radius(self) -> float:
+        return 0.5 * self.pitch_diameter
+
+    @property
+    def nominal_contact_angle(self) -> float:
+        """Of kinematics: Dwe is measured across the roller's axis, not along the races' normals."""
+        return self.axis_angle
+
+    def rolling_angles(self, angles: tuple[float, float]) -> tuple[float, float]:
+        return self.axis_angle, self.axis_angle
+
+    @property
+    def gamma(self) -> float:
+        """Dwe cos(alpha)/Dpw of the ratings."""
+        return self.roller_diameter * cos(self.contact_angle) / self.pitch_diameter
+
+    @property
+    def element_count(self) -> int:
+        return self.roller_count
+
+    @property
+    def element_diameter(self) -> float:
+        return self.roller_diameter
+
+    @property
+    def element_length(self) -> float:
+        return self.roller_length
+
+    @property
+    def element_edge(self) -> float:
+        return 0.5 * (self.roller_length - self.effective_length)
+
+    @cached_property
+    def roller(self) -> Frustum:
+        return Frustum(0.5 * self.roller_diameter, self.roller_length, self.half_angle)
+
+    @property
+    def element_mass(self) -> float:
+        """Of a roller with flat ends [kg]."""
+        return self.rolling_material.density * self.roller.volume
+
+    @cached_property
+    def roller_inertia(self) -> tuple[float, float]:
+        """Axial and transverse moments of inertia [kg m^2] about its centre of mass."""
+        return self.roller.inertia(self.rolling_material.density)
+
+    @property
+    def clearance(self) -> float:
+        """None: another bearing is adjusted against it, and displacements begin at contact."""
+        return 0.0
+
+    def in_place(self, changed: Changed) -> TaperedRollerBearing:
+        """Cones keep one apex, and touch where the inner ring then stands (``approach``)."""
+        return replace(
+            self,
+            pitch_diameter=self.pitch_diameter + 0.5 * (changed.inner_race + changed.outer_race),
+            roller_diameter=self.roller_diameter + changed.element,
+        )
+
+    def approach(self, mounted: Bearing, changed: Changed) -> float:
+        """Rollers move with the inner ring and its rib; what a roller grows lifts its outer surface
+        by that times cos(eps) towards the outer race, which an axial displacement of the inner ring
+        meets by its sin(alpha)."""
+        races = 0.5 * (changed.inner_race - changed.outer_race) * cos(self.contact_angle)
+        return (races + changed.element * cos(self.half_angle)) / sin(self.contact_angle)
+
+    @property
+    def race_diameters(self) -> tuple[float, float]:
+        reach = self.roller_diameter * cos(self.axis_angle)
+        return self.pitch_diameter - reach, self.pitch_diameter + reach
+
+    @property
+    def curvature_radii(self) -> tuple[float, float]:
+        """Effective radii [m] of rollers on inner and outer race at mid-length, across the lines of
+        contact: surfaces of cones are curved by cos(half angle)/r."""
+        roller = cos(self.half_angle) / (0.5 * self.roller_diameter)
+        races = [2.0 * cos(a) / d for a, d in zip(self.race_angles, self.race_diameters)]
+        return 1.0 / (roller + races[0]), 1.0 / (roller - races[1])
+
+    @cached_property
+    def rib_place(self) -> tuple[float, float]:
+        """Where a roller's end bears on the large rib, halfway up that: along its axis towards the
+        apex and across it outwards [m], from its middle."""
+        y = self.roller.ends[0] - 0.5 * self.rib_height
+        return -0.5 * self.roller_length + self.end_radius - sqrt(self.end_radius**2 - y**2), -y
+
+    @property
+    def rib_angle(self) -> float:
+        """Angle [rad] between the rib's force and the roller's axis: it acts through the centre of
+        the end's sphere, on the axis."""
+        return atan(-self.rib_place[1] / sqrt(self.end_radius**2 - self.rib_place[1] ** 2))
+
+    @cached_property
+    def rib_contact(self) -> PointContact:
+        """Hertz contact of a roller's spherical end with the conical face of the rib, which the
+        force at ``rib_angle`` meets at right angles."""
+        inwards = sin(self.axis_angle - self.rib_angle)  # > 0: the face is hollow
+        along, across = self.rib_place
+        radius = self.pitch_radius - along * sin(self.axis_angle) + across * cos(self.axis_angle)
+        return PointContact(
+            rolling=1.0 / (1.0 / self.end_radius - inwards / radius),
+            transverse=self.end_radius,
+            modulus=self.race_modulus,
+        )
+
+    @property
+    def apex_to_end(self) -> float:
+        """Distance [m] of the apex from the middle of a roller's large end: the greatest radius
+        that an end may have."""
+        return self.apex_distance + 0.5 * self.roller_length
+
+    def race_diameter(self, ring: str, x: float) -> float:
+        """Diameter [m] of the "inner" or "outer" race at a distance x [m] along a roller from its
+        middle, towards the apex."""
+        shrink = 1.0 - x / self.apex_distance
+        return self.race_diameters[ring == "outer"] * shrink
+
+    @cached_property
+    def inner_ring_mass(self) -> float:
+        """Inner ring as a hollow cylinder from bore to mean race diameter, without ribs [kg]."""
+        area = 0.25 * pi * (self.race_diameters[0] ** 2 - self.bore**2)
+        return self.material.density * area * self.inner_width
+
+    @cached_property
+    def inner_ring_inertia(self) -> tuple[float, float]:
+        """Axial and transverse moments of inertia of that hollow cylinder [kg m^2]."""
+        return hollow_cylinder_inertia(
+            self.inner_ring_mass, self.bore, self.race_diameters[0], self.inner_width
+        )
+
+    @cached_property
+    def outer_ring_mass(self) -> float:
+        area = 0.25 * pi * (self.outside_diameter**2 - self.race_diameters[1] ** 2)
+        return self.material.density * area * self.outer_width
+
+    @cached_property
+    def outer_ring_inertia(self) -> tuple[float, float]:
+        """Axial and transverse moments of inertia of a hollow cylinder of that mass [kg m^2]."""
+        return hollow_cylinder_inertia(
+            self.outer_ring_mass, self.race_diameters[1], self.outside_diameter, self.outer_width
+        )
+
+    @property
+    def greatest_tilt(self) -> float:
+        return 2.0 * _MOST_PRESSED * self.roller_diameter / self.effective_length
+
+    def axial_refusal(self, load: float) -> str:
+        if load >= 0.0:
+            return ""
+        return (
+            "a tapered roller bearing carries axial load on its inner ring towards +x alone, into "
+            "the outer ring"
+        )
+
+    def race_film(self, force: np.ndarray, speed: np.ndarray, oil: Oil) -> Film:
+        """The load spread evenly over the effective length: a profile's ends are not resolved."""
+        line = force / self.effective_length
+        return both_races([
+            line_film(radius, self.race_modulus, line[..., k], speed[..., k], oil)
+            for k, radius in enumerate(self.curvature_radii)
+        ])  # fmt: skip
+
+    def rolling_entrainment(
+        self, angle: np.ndarray, orbit: np.ndarray, inner_speed: float
+    ) -> np.ndarray:
+        rolling = np.where(np.isnan(angle), np.nan, self.axis_angle)
+        return rolling_entrainment(
+            rolling, orbit, inner_speed, diameter=self.roller_diameter, pitch=self.pitch_diameter
+        )
+
+    def contact_patch(self, force: float, pressure: float, race: int) -> tuple[float, float]:
+        return 0.25 * pi * pressure, 2.0 * force / (pi * pressure * self.effective_length)
+
+    def in_words(self) -> str:
+        angle = typeset(self.contact_angle, "deg", digits=4)
+        large, small = (2.0 * radius for radius in self.roller.ends)
+        return (
+            f"{self.name_and_size} with {self.roller_count} rollers from {typeset(large, 'mm')} to "
+            f"{typeset(small, 'mm')} in diameter and {typeset(self.roller_length, 'mm')} "
+            f"long{self.of_what}, contact angle {angle}."
+        )
