@@ -9,7 +9,7 @@ import pytest
 from qj208 import INSIDE, QJ208, solved
 from scipy.optimize import brentq
 
-from flexcage.bearings import statics_of
+from flexcage.bearings import bending_of, losses_of, sections_of, statics_of
 from flexcage.bearings.ball.angular_contact import AngularContactBallBearing
 from flexcage.bearings.four_point.inference import INFERENCE
 from flexcage.case import catalogue
@@ -232,3 +232,11 @@ def test_two_rows_rate_balls_of_the_catalogue_s_size(number):
     assert bearing.axial_clearance == pytest.approx(60e-6, abs=0.5e-6)
     inner, outer = bearing.shim_angles
     assert inner == pytest.approx(outer, abs=1e-3) and inner < radians(35.0)
+
+
+def test_what_it_has_not_is_refused_in_a_sentence():
+    with pytest.raises(InputError, match="'four_point_contact' has no losses of a static solution"):
+        losses_of(QJ208)
+    with pytest.raises(InputError, match="rings of a four-point contact ball bearing do not bend"):
+        bending_of(QJ208)
+    assert sections_of(QJ208) is None
