@@ -17,7 +17,6 @@ _AS_TYPE = (
 # kinds of which flexcage has a type, but does not know what is inside
 _TYPES = {
     "a self-aligning ball bearing": "self_aligning_ball",
-    "a double row angular contact ball bearing": "double_row_angular_contact_ball",
     "a double row cylindrical roller bearing": "double_row_cylindrical_roller",
 }
 # ISO 15 and makers' catalogues (SKF, Schaeffler, NSK): first digits and letters of designations
@@ -57,7 +56,7 @@ _CAGELESS = re.compile(r"full.?complement.*|cageless", re.IGNORECASE)
 _PAIR = re.compile(r"(7\d{3}[A-Z0-9]*?)(DB|DF|DT(?!N)|DG|DU|QBC|QFC|QBT|QFT|TBT|TFT|TBTX)[A-Z0-9]*")
 _SETS = {"DB": "back to back", "DF": "face to face", "DT": "in tandem"}
 # digits alone, set off from what follows: "3206-2RS" has four, "32062" five
-_FOUR_DIGITS = re.compile(r"(3[0238]|5[23])\d\d[\s_/.-].*")
+_FOUR_DIGITS = re.compile(r"(3[0238]|4[23]|5[23])\d\d[\s_/.-].*")
 
 #: What a bearing's surroundings have, by pattern of a key that people look for: what there is.
 SURROUNDINGS: Mapping[str, str] = MappingProxyType({

@@ -11,7 +11,10 @@ from scipy.optimize import brentq, minimize
 import flexcage
 from flexcage.bearings import statics_of
 from flexcage.bearings.double_row_ball.rules import self_aligning_factor
+from flexcage.case import catalogue
+from flexcage.case.new import new_case
 from flexcage.case.static import StaticCase
+from flexcage.cli import main
 from flexcage.contacts.spec import Contacts
 from flexcage.spec import (
     AngularContactBallBearing,
@@ -265,3 +268,21 @@ def test_the_example_bears_its_moment_with_both_rows():
         found.elements.azimuth
     )
     assert radial == pytest.approx(-2e3 * -1.0, rel=1e-3)
+
+
+@pytest.mark.parametrize("name", ["3204", "3205 A", "3206-2RS", "5207", "3208", "3209", "3210"])
+def test_a_designation_becomes_two_rows(name, tmp_path, capsys):
+    assert main(["new", name, "-o", str(tmp_path / "case.toml")]) == 0
+    case = flexcage.load_static(tmp_path / "case.toml")
+    assert case.bearing.type == PAIR.type and "[cage]" not in case.to_toml()
+    found = flexcage.solve_static(case)
+    assert 1.0 <= found.ratings.dynamic / case.bearing.dynamic_rating <= 1.0 + 1e-9
+    assert found.loaded >= case.bearing.ball_count  # of an axial load, one row
+    said = " ".join(capsys.readouterr().out.split())
+    assert "balls of" in said
+
+
+def test_a_3205_has_nine_balls_of_five_sixteenths_a_row():
+    entry = catalogue.find("3205")
+    bearing = new_case(entry.outline, entry.source).chosen.bearing
+    assert (bearing.ball_count, bearing.ball_diameter) == (9, pytest.approx(7.938e-3, abs=1e-6))

@@ -58,7 +58,8 @@ def _drawn(rng: np.random.Generator, flexible: float) -> tuple[dict[str, str], s
     rollers = rng.random() < 0.5
     outlines = {n: find(n).outline for n in designations()}
     # numbers of a seed name cases: deep groove ball bearings are those that the first trials drew
-    names = [n for n, outline in outlines.items() if outline.complement == CAGED
+    names = [n for n, outline in outlines.items()
+             if outline.type in CAGES and outline.complement == CAGED
              and (outline.type == "cylindrical_roller") == rollers
              and (outline.type != "deep_groove_ball" or outline.bore < LARGEST)]  # fmt: skip
     entry = find(names[rng.integers(len(names))])

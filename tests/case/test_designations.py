@@ -166,7 +166,7 @@ def test_stainless_steel_is_named():
 
 @pytest.mark.parametrize(
     ("name", "kind"),
-    [("3206-2RS", "a double row angular contact ball bearing"),
+    [("4206-2RS", "a double row deep groove ball bearing"),
      ("RNU 210", "a cylindrical roller bearing without an inner ring"),
      ("LM11949", "a tapered roller bearing in inches"), ("7208 BDU", "a set of bearings (DU)"),
      ("7010 CD/P4ADGA", "a set of bearings (DG)")],

@@ -28,7 +28,9 @@ def _rib_peak(part: SettledRun) -> Found | None:
     return None if force is None else Found(float(force.max()), idle=not force.any())
 
 
-def _skew(part: SettledRun) -> Found:
+def _skew(part: SettledRun) -> Found | None:
+    if "element_tilt" not in part.ds:
+        return None
     skew = part.ds["element_tilt"].sel(tilt="skew").transpose("time", "element").values
     return Found(part.windows.mean(np.abs(skew).max(axis=1)))
 

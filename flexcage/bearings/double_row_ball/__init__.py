@@ -2,14 +2,26 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from flexcage.bearings.double_row_ball.angular_contact import DoubleRowAngularContactBallBearing
 from flexcage.bearings.double_row_ball.rules import RULES
 from flexcage.bearings.double_row_ball.self_aligning import SelfAligningBallBearing
 from flexcage.bearings.family import Family
 from flexcage.bearings.two_rows import rows_of
 
+if TYPE_CHECKING:
+    from flexcage.geometry.inference import Inference
+
 # specs that ``flexcage.spec`` shows
 __all__ = ["DoubleRowAngularContactBallBearing", "SelfAligningBallBearing"]
+
+
+def _inside() -> Inference:
+    from flexcage.bearings.double_row_ball.inference import INFERENCE
+
+    return INFERENCE
+
 
 FAMILY = Family(
     name="double_row_ball",
@@ -23,6 +35,7 @@ FAMILY = Family(
     figures=None,
     rubbing=None,
     shapes=None,
-    inside=None,
+    inside=_inside,
+    catalogue=f"{__name__}.catalogue",
     built_on="ball",
 )

@@ -1,0 +1,1 @@
+"""Tables of double row angular contact ball bearings, as CSV files like those of all bearings."""
