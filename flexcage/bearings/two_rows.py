@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from math import pi, sin, sqrt
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import mm
@@ -37,8 +37,9 @@ class RowPlace:
     turned: float
 
 
-class DoubleRow(Protocol):
-    """A bearing of two rows; what rules and statics ask of it."""
+@dataclass(frozen=True, kw_only=True)
+class RowFields:
+    """Keys of where rows stand, and what a spec says of its rows, for the functions below."""
 
     # power of i, the number of rows, in ISO 281's rating, and Weibull's e
     row_power: ClassVar[float]
@@ -46,26 +47,17 @@ class DoubleRow(Protocol):
     carries: ClassVar[tuple[bool, ...]]
     pressure_limit: ClassVar[float]  # at which ISO 76 sets the static rating [Pa]
 
-    @property
-    def row(self) -> Bearing:
-        """The bearing of one row alone, which bears axial load, if any, towards +x."""
-        ...
+    if TYPE_CHECKING:
 
-    @property
-    def row_places(self) -> tuple[RowPlace, RowPlace]: ...
+        @property
+        def row(self) -> Any:
+            """The bearing of one row alone, which bears axial load, if any, towards +x."""
 
-    @property
-    def late(self) -> float:
-        """Axial displacement [m] in a row's sense before it bears, from the bearing's middle."""
-        ...
-
-    @property
-    def row_distance(self) -> float: ...
-
-
-@dataclass(frozen=True, kw_only=True)
-class RowFields:
-    """Keys of where rows stand."""
+        @property
+        def row_places(self) -> tuple[RowPlace, RowPlace]: ...
+        @property
+        def late(self) -> float:
+            """Axial displacement [m] in a row's sense before it bears, from the middle."""
 
     row_distance: float = quantity("mm", doc="axial distance of the two rows' middles", above=0.0)
     staggered: bool = option(
@@ -89,7 +81,7 @@ def single(bearing: Bearing, kind: type[Bearing], **changes: Any) -> Any:
 
 
 def rows_of(bearing: Any, *, speed: float, contacts: Contacts, options: StaticOptions) -> Rows:
-    """Elements of both rows of a ``DoubleRow``; a row has its share of the dynamic rating."""
+    """Elements of both rows; a row has its share of the dynamic rating."""
     from flexcage.bearings.family import statics_of
     from flexcage.system.statics.rows import Row, Rows
 

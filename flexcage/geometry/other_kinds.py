@@ -9,16 +9,11 @@ from types import MappingProxyType
 
 from flexcage.core.wings import FAMILIES
 
-_HAS = "flexcage has none; 'flexcage keys bearing' lists the types that it has"
+_HAS = "flexcage has none ('flexcage keys bearing' lists its types)"
 _AS_TYPE = (
     "its internal geometry is not inferred: give that in a case as bearing.type '{}', for "
     "'flexcage static'"
 )
-# kinds of which flexcage has a type, but does not know what is inside
-_TYPES = {
-    "a self-aligning ball bearing": "self_aligning_ball",
-    "a double row cylindrical roller bearing": "double_row_cylindrical_roller",
-}
 # ISO 15 and makers' catalogues (SKF, Schaeffler, NSK): first digits and letters of designations
 # without spaces, dashes and strokes, and what such a bearing is
 _DESIGNATIONS = {
@@ -94,13 +89,21 @@ def kind_of(designation: str) -> str:
             "the preload in load.axial"
         )
     two_rows = _FOUR_DIGITS.fullmatch(designation.strip())
-    here = {f"a {kind}" for kind in _kinds()}
     for pattern, kind in _DESIGNATIONS.items():
         if re.fullmatch(pattern, designation.strip()[:4] if two_rows else name):
-            if kind in _TYPES:
-                return f"is {kind}; {_AS_TYPE.format(_TYPES[kind])}"
-            return "" if kind in here else f"is {kind}; {_HAS}"
+            return _here(kind)
     return ""
+
+
+def _here(kind: str) -> str:
+    """What there is of a kind, "a needle roller bearing"; empty where its inside is inferred."""
+    for family in FAMILIES.values():
+        for spec in family.types:
+            if kind == f"a {spec.kind}":
+                name = spec.__dataclass_fields__["type"].default
+                inferred = family.inside is not None and name in family.inside().cages
+                return "" if inferred else f"is {kind}; {_AS_TYPE.format(name)}"
+    return f"is {kind}; {_HAS}"
 
 
 def named_kind(name: str) -> str:
@@ -112,8 +115,3 @@ def named_kind(name: str) -> str:
         if re.fullmatch(pattern, name.strip(), re.IGNORECASE):
             return f"of {kinds} {_HAS}"
     return ""
-
-
-def _kinds() -> list[str]:
-    """Kinds of bearings that all families have, in words."""
-    return sorted(spec.kind for family in FAMILIES.values() for spec in family.types)

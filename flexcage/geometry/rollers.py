@@ -10,12 +10,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import cos, inf, pi
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from flexcage.core.spec import option, quantity
 
 LINE_EXPONENT = 10.0 / 9.0
+_MOST_PRESSED = 0.01  # of a roller's diameter, a hundred times what C0 leaves for good (ISO 76)
 STATIC_PRESSURE = 4.0e9  # Pa, ISO 76, rollers
 B_M = 1.1  # ISO 281: today's steel and manufacture, cylindrical and tapered roller bearings
 LIFE_EXPONENT = 10.0 / 3.0
@@ -59,6 +61,44 @@ class RollerProfile:
         width = length / count
         places = (np.arange(count) + 0.5) * width - 0.5 * length
         return places, self.drop(places, diameter=diameter, length=length)
+
+
+class OfRollers:
+    """What follows of a ``Bearing`` from its keys of rollers alone, whatever their shape."""
+
+    if TYPE_CHECKING:
+
+        @property
+        def roller_count(self) -> int: ...
+        @property
+        def roller_diameter(self) -> float: ...
+        @property
+        def roller_length(self) -> float: ...
+        @property
+        def effective_length(self) -> float: ...
+
+    @property
+    def element_count(self) -> int:
+        return self.roller_count
+
+    @property
+    def element_diameter(self) -> float:
+        return self.roller_diameter
+
+    @property
+    def element_length(self) -> float:
+        return self.roller_length
+
+    @property
+    def element_edge(self) -> float:
+        return 0.5 * (self.roller_length - self.effective_length)
+
+    @property
+    def greatest_tilt(self) -> float:
+        return 2.0 * _MOST_PRESSED * self.roller_diameter / self.effective_length
+
+    def contact_patch(self, force: float, pressure: float, race: int) -> tuple[float, float]:
+        return 0.25 * pi * pressure, 2.0 * force / (pi * pressure * self.effective_length)
 
 
 def geometry_factor(gamma: float) -> float:

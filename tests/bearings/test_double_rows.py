@@ -286,3 +286,10 @@ def test_a_3205_has_nine_balls_of_five_sixteenths_a_row():
     entry = catalogue.find("3205")
     bearing = new_case(entry.outline, entry.source).chosen.bearing
     assert (bearing.ball_count, bearing.ball_diameter) == (9, pytest.approx(7.938e-3, abs=1e-6))
+
+
+def test_a_moment_is_refused_where_nothing_resists_a_tilt():
+    said = "load.moment_z is 5 N\\*m, but a self-aligning .* give the shaft's load.tilt_stiffness"
+    with pytest.raises(flexcage.InputError, match=said):
+        solved(ALIGNING, radial=1e3, moment_z=5.0)
+    assert solved(ALIGNING, radial=1e3, moment_z=5.0, tilt_stiffness=1e4).displacement[4] != 0.0

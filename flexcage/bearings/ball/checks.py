@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from math import asin, cos, degrees, pi, sin
-from typing import Any
+from typing import Any, Protocol
 
 from flexcage.bearings.ball.angular_contact import AngularContactBallBearing
 from flexcage.bearings.ball.bearing import BallBearing
@@ -27,6 +27,17 @@ _WIDEST = 2.0  # of the bearing's width: one that reaches out of it on both side
 _MOST_PRELOAD = 0.01  # of the ball's diameter: a Hertz pressure far beyond any steel's
 
 
+class Angled(Protocol):
+    """A bearing that is given by its contact angle or its radial clearance."""
+
+    @property
+    def contact_angle(self) -> float | None: ...
+    @property
+    def radial_clearance(self) -> float | None: ...
+    @property
+    def clearance(self) -> float: ...
+
+
 def check(bearing: BallBearing, cage: Cage | None, defects: Sequence[Any]) -> None:
     """Raise InputError for the first impossibility in the bearing, its cage or the defects."""
     raise_first(_find_in_grooves(bearing))
@@ -35,7 +46,8 @@ def check(bearing: BallBearing, cage: Cage | None, defects: Sequence[Any]) -> No
     raise_first(_find_in_spalls(bearing))
     raise_first(_find_in_spot(bearing))
     if isinstance(bearing, AngularContactBallBearing):
-        raise_first(_find_in_angle(bearing))
+        raise_first(find_in_angle(bearing, "grooves"))
+        raise_first(_find_without_angle(bearing))
     else:
         raise_first(_find_in_clearance(bearing, bearing.clearance))
     if cage is None:
@@ -118,14 +130,27 @@ def _find_in_spalls(b: BallBearing) -> Iterator[Finding]:
             )
 
 
-def _find_in_angle(b: AngularContactBallBearing) -> Iterator[Finding]:
-    """What is impossible in contact angle and clearance, one of which says the other."""
+def find_in_angle(b: Angled, races: str) -> Iterator[Finding]:
+    """What is impossible in contact angle and clearance, one of which says the other in these
+    ``races`` (in words)."""
     if b.contact_angle is None and b.radial_clearance is None:
         yield (
             "bearing.contact_angle",
             "[bearing] has neither contact_angle nor radial_clearance; give one of them.",
         )
-    elif b.contact_angle is None and b.radial_clearance is not None:
+    elif b.contact_angle is not None and b.radial_clearance is not None:
+        if abs(b.clearance - b.radial_clearance) > _AGREE:
+            yield (
+                "bearing.radial_clearance",
+                f"bearing.radial_clearance is {describe(b.radial_clearance, 'um')}, but a contact "
+                f"angle of {degrees(b.contact_angle):.5g} deg makes it {b.clearance * 1e6:.4g} um "
+                f'in these {races}; leave one of the two out, as by contact_angle = "none".',
+            )
+
+
+def _find_without_angle(b: AngularContactBallBearing) -> Iterator[Finding]:
+    """What is impossible in the clearance that says the contact angle."""
+    if b.contact_angle is None and b.radial_clearance is not None:
         if b.radial_clearance <= 0.0:
             yield (
                 "bearing.radial_clearance",
@@ -133,15 +158,6 @@ def _find_in_angle(b: AngularContactBallBearing) -> Iterator[Finding]:
                 "contact bearing has its contact angle from a clearance greater than 0 um.",
             )
         yield from _find_in_clearance(b, b.radial_clearance)
-    elif b.radial_clearance is not None and b.contact_angle is not None:
-        due = b.clearance
-        if abs(due - b.radial_clearance) > _AGREE:
-            yield (
-                "bearing.radial_clearance",
-                f"bearing.radial_clearance is {describe(b.radial_clearance, 'um')}, but a contact "
-                f"angle of {degrees(b.contact_angle):.5g} deg makes it {due * 1e6:.4g} um in these "
-                'grooves; leave one of the two out, as by contact_angle = "none".',
-            )
 
 
 def _find_in_clearance(b: BallBearing, clearance: float) -> Iterator[Finding]:

@@ -15,17 +15,12 @@ from flexcage.bearings.cylindrical_roller.spot import RollerSpot
 from flexcage.cages.window.cage import WindowCage
 from flexcage.core.spec import GIVEN, option, quantity
 from flexcage.core.units import typeset
-from flexcage.geometry.bearing import (
-    Bearing,
-    Spec,
-    hollow_cylinder_inertia,
-    type_name,
-)
+from flexcage.geometry.bearing import Bearing, Spec, hollow_cylinder_inertia, type_name
 from flexcage.geometry.film import Film, Oil, both_races, line_film, rolling_entrainment
 from flexcage.geometry.life.iso281 import ROLLERS, Endurance
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.other_kinds import SURROUNDINGS
-from flexcage.geometry.rollers import B_M, RollerProfile
+from flexcage.geometry.rollers import B_M, OfRollers, RollerProfile
 from flexcage.geometry.spall import BY_RACE, Spall
 
 if TYPE_CHECKING:
@@ -46,11 +41,10 @@ BY_RIBS = (
     "bearing.design says which ring has ribs; bearing.rib_diameter and rib_gap are of the two that "
     "guide the rollers, counter_rib_diameter and counter_rib_gap of the other ring's"
 )
-_MOST_PRESSED = 0.01  # of a roller's diameter, a hundred times what C0 leaves for good (ISO 76)
 
 
 @dataclass(frozen=True, kw_only=True)
-class RollerBearing(Bearing):
+class RollerBearing(OfRollers, Bearing):
     """A single-row cylindrical roller bearing; ``design`` says which of its rings have ribs.
 
     Race diameters are those at zero clearance; half of the radial clearance is taken from the
@@ -167,14 +161,6 @@ class RollerBearing(Bearing):
         return axial, transverse
 
     @property
-    def element_count(self) -> int:
-        return self.roller_count
-
-    @property
-    def element_diameter(self) -> float:
-        return self.roller_diameter
-
-    @property
     def clearance(self) -> float:
         return self.radial_clearance
 
@@ -197,14 +183,6 @@ class RollerBearing(Bearing):
             rib_diameter=self.rib_diameter + grown[design.guide],
             counter_rib_diameter=None if counter is None else counter + grown[design.other],
         )
-
-    @property
-    def element_length(self) -> float:
-        return self.roller_length
-
-    @property
-    def element_edge(self) -> float:
-        return 0.5 * (self.roller_length - self.effective_length)
 
     @property
     def element_mass(self) -> float:
@@ -304,10 +282,6 @@ class RollerBearing(Bearing):
         )
 
     @property
-    def greatest_tilt(self) -> float:
-        return 2.0 * _MOST_PRESSED * self.roller_diameter / self.effective_length
-
-    @property
     def greatest_shift(self) -> float:
         return 0.5 * (self.width - self.roller_length)
 
@@ -329,9 +303,6 @@ class RollerBearing(Bearing):
         return rolling_entrainment(
             angle, orbit, inner_speed, diameter=self.roller_diameter, pitch=self.pitch_diameter
         )
-
-    def contact_patch(self, force: float, pressure: float, race: int) -> tuple[float, float]:
-        return 0.25 * pi * pressure, 2.0 * force / (pi * pressure * self.effective_length)
 
     def in_words(self) -> str:
         return (

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from flexcage.bearings.ball.angular_contact import AngularContactBallBearing
 from flexcage.bearings.ball.bearing import BallBearing
+from flexcage.bearings.ball.ratings import STATIC_PRESSURE
 from flexcage.bearings.two_rows import (
     ARRANGEMENTS,
     RowFields,
@@ -38,7 +39,7 @@ class DoubleRowAngularContactBallBearing(RowFields, AngularContactBallBearing):
     row_power: ClassVar[float] = POWER
     weibull: ClassVar[float] = WEIBULL
     carries: ClassVar[tuple[bool, ...]] = (True, True, True, True, True)
-    pressure_limit: ClassVar[float] = 4.2e9
+    pressure_limit: ClassVar[float] = STATIC_PRESSURE
 
     type: str = type_name("double_row_angular_contact_ball")
     arrangement: str = option(

@@ -10,6 +10,7 @@ from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
 from flexcage.bearings.two_rows import RowFields, RowPlace, single
 from flexcage.core.units import typeset
 from flexcage.geometry.bearing import type_name
+from flexcage.geometry.rollers import STATIC_PRESSURE
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,7 +23,7 @@ class DoubleRowRollerBearing(RowFields, RollerBearing):
     row_power: ClassVar[float] = 7.0 / 9.0  # ISO 281, roller bearings
     weibull: ClassVar[float] = 9.0 / 8.0
     carries: ClassVar[tuple[bool, ...]] = (False, True, True, True, True)
-    pressure_limit: ClassVar[float] = 4.0e9
+    pressure_limit: ClassVar[float] = STATIC_PRESSURE
 
     type: str = type_name("double_row_cylindrical_roller")
 

@@ -16,13 +16,12 @@ import numpy as np
 
 from flexcage.bearings.ball import checks, lands, ratings
 from flexcage.bearings.four_point.bearing import FourPointContactBearing
-from flexcage.core.units import describe, mm
+from flexcage.bearings.two_rows import ROWS  # as which both pairs of arcs count
+from flexcage.core.units import mm
 from flexcage.geometry.bearing import EquivalentLoad, Rules
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.checks import Finding, raise_first
 
-_AGREE = 1e-6  # m, to which contact angle and clearance must agree, as for angular contact
-ROWS = 2.0  # as which both pairs of arcs count
 # ISO 281:2007, table 3, two rows of angular contact: contact angle, e, X beyond e, Y up to e
 _TWO_ROWS = np.array([
     (20.0, 0.57, 0.70, 1.09), (25.0, 0.68, 0.67, 0.92), (30.0, 0.80, 0.63, 0.78),
@@ -34,7 +33,7 @@ _Y = np.array([1.63, 1.41, 1.24, 1.07, 0.93, 0.81])  # beyond e
 def check(bearing: FourPointContactBearing, cage: Cage | None, defects: Sequence[Any]) -> None:
     """Raise InputError for the first impossibility in the bearing, its cage or the defects."""
     raise_first(_find_in_arcs(bearing))
-    raise_first(_find_in_angle(bearing))
+    raise_first(checks.find_in_angle(bearing, "arcs"))
     checks.check(bearing, cage, defects)
     raise_first(_find_in_edges(bearing))
 
@@ -52,23 +51,6 @@ def _find_in_arcs(b: FourPointContactBearing) -> Iterator[Finding]:
                 f"bearing.{ring}_shim",
                 f"bearing.{ring}_shim is {mm(shim)}, but no ball touches both arcs of this race "
                 f"where it is {mm(2.0 * length)} or more, 2 r - D.",
-            )
-
-
-def _find_in_angle(b: FourPointContactBearing) -> Iterator[Finding]:
-    """What is impossible in contact angle and clearance, one of which says the other."""
-    if b.contact_angle is None and b.radial_clearance is None:
-        yield (
-            "bearing.contact_angle",
-            "[bearing] has neither contact_angle nor radial_clearance; give one of them.",
-        )
-    elif b.contact_angle is not None and b.radial_clearance is not None:
-        if abs(b.clearance - b.radial_clearance) > _AGREE:
-            yield (
-                "bearing.radial_clearance",
-                f"bearing.radial_clearance is {describe(b.radial_clearance, 'um')}, but a contact "
-                f"angle of {degrees(b.contact_angle):.5g} deg makes it {b.clearance * 1e6:.4g} um "
-                'in these arcs; leave one of the two out, as by contact_angle = "none".',
             )
 
 

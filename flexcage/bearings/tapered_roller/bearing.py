@@ -27,7 +27,7 @@ from flexcage.geometry.hertz import PointContact
 from flexcage.geometry.life.iso281 import ROLLERS, Endurance
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.other_kinds import SURROUNDINGS
-from flexcage.geometry.rollers import RollerProfile
+from flexcage.geometry.rollers import OfRollers, RollerProfile
 
 if TYPE_CHECKING:
     from flexcage.geometry.fits.changed import Changed
@@ -38,11 +38,9 @@ FIRST_CONTACT = (
     "load.axial"
 )
 
-_MOST_PRESSED = 0.01  # of a roller's diameter, a hundred times what C0 leaves for good (ISO 76)
-
 
 @dataclass(frozen=True, kw_only=True)
-class TaperedRollerBearing(Bearing):
+class TaperedRollerBearing(OfRollers, Bearing):
     """A single-row tapered roller bearing; displacements count from first contact.
 
     The rollers' half angle follows from their mean diameter, the pitch diameter and the contact
@@ -129,22 +127,6 @@ class TaperedRollerBearing(Bearing):
     def gamma(self) -> float:
         """Dwe cos(alpha)/Dpw of the ratings."""
         return self.roller_diameter * cos(self.contact_angle) / self.pitch_diameter
-
-    @property
-    def element_count(self) -> int:
-        return self.roller_count
-
-    @property
-    def element_diameter(self) -> float:
-        return self.roller_diameter
-
-    @property
-    def element_length(self) -> float:
-        return self.roller_length
-
-    @property
-    def element_edge(self) -> float:
-        return 0.5 * (self.roller_length - self.effective_length)
 
     @cached_property
     def roller(self) -> Frustum:
@@ -256,10 +238,6 @@ class TaperedRollerBearing(Bearing):
             self.outer_ring_mass, self.race_diameters[1], self.outside_diameter, self.outer_width
         )
 
-    @property
-    def greatest_tilt(self) -> float:
-        return 2.0 * _MOST_PRESSED * self.roller_diameter / self.effective_length
-
     def axial_refusal(self, load: float) -> str:
         if load >= 0.0:
             return ""
@@ -283,9 +261,6 @@ class TaperedRollerBearing(Bearing):
         return rolling_entrainment(
             rolling, orbit, inner_speed, diameter=self.roller_diameter, pitch=self.pitch_diameter
         )
-
-    def contact_patch(self, force: float, pressure: float, race: int) -> tuple[float, float]:
-        return 0.25 * pi * pressure, 2.0 * force / (pi * pressure * self.effective_length)
 
     def in_words(self) -> str:
         angle = typeset(self.contact_angle, "deg", digits=4)

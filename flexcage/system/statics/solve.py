@@ -25,6 +25,7 @@ from flexcage.system.statics.state import Ratings
 from flexcage.system.statics.yielding import balance_on_seat, on_seat
 
 _PLACES = ("load.axial", "load.radial", "load.radial", "load.moment_y", "load.moment_z")
+_BORNE = (("N", "load.axial_stiffness"), ("N*m", "load.tilt_stiffness"))  # forces, moments
 
 
 @one_blas_thread
@@ -156,9 +157,10 @@ def posed(bearing: Bearing, elements: Elements, load: Load, options: StaticOptio
         )
     for k in range(5):
         if force[k] != 0.0 and not free[k]:
+            unit, shaft = _BORNE[k > 2]
             raise InputError(
-                f"{_PLACES[k]} is {describe(force[k], 'N')}, but a {bearing.kind} bears none of it "
-                "in the static solution; leave it out, or give the shaft's load.axial_stiffness.",
+                f"{_PLACES[k]} is {describe(force[k], unit)}, but a {bearing.kind} bears none of "
+                f"it in the static solution; leave it out, or give the shaft's {shaft}.",
                 where=_PLACES[k],
             )
     tilt, key = _tilt(load, options)
