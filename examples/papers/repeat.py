@@ -240,7 +240,7 @@ def collect(paper: Paper, folder: Path, out: Path, *, quick: bool = False) -> Co
         )
     specs, samples = {}, {}
     for name, files in paper.samples.items():
-        there = [maps[file] for file in files if file in maps]
+        there = [maps[file].begun for file in files if file in maps]
         if there:
             specs[name] = there[0].spec
             samples[name] = sample_of(there, paper.drifting)
@@ -366,7 +366,8 @@ def _cost(computed: Computed) -> str:
     total = sum(times.values()) / 60.0
     physics = set().union(*(found.physics for found in computed.maps.values()))
     lacking = [
-        f"{len(found.lacking)} of the {len(found.spec.shares)} settings of {file} are not computed."
+        f"Of {file} the first {len(found.begun.spec.shares)} of {len(found.spec.shares)} settings "
+        "are judged, as not all are computed."
         for file, found in computed.maps.items() if found.lacking
     ]  # fmt: skip
     return " ".join([

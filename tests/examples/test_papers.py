@@ -182,3 +182,18 @@ def test_tables_of_other_settings_are_not_taken(tables):
         conditions = ({**made.spec.conditions[0], "load.radial": "1 N"}, *made.spec.conditions[1:])
         changed = replace(made.spec, conditions=conditions)
         assert len(read_settings(Path(repeat.table_name(file)), changed).lacking) == other.count
+
+
+def test_a_sample_that_was_begun_is_one_of_its_first_settings(maps):
+    from judging.stored import CONDITION, FEWEST, SETTING, START, Settings
+
+    for spec in [spec for specs in maps.values() for spec in specs]:
+        labels = [str(c["label"]) for c in spec.conditions]
+        rows = product(range(len(spec.shares)), range(spec.starts), labels)
+        table = pd.DataFrame(rows, columns=[SETTING, START, CONDITION])
+        assert Settings(spec, table).begun.spec == spec
+        begun = Settings(spec, table[table[SETTING] != 70]).begun
+        assert begun.lacking == [] and begun.spec.count == 64
+        assert np.array_equal(begun.spec.shares, spec.shares[:64])
+        few = Settings(spec, table[table[SETTING] != FEWEST - 1])
+        assert few.begun is few

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 from claims import LOADS, RAMPS, SPEEDS, WAVES
-from judging.panels import Panel, arrow, sheets_of
-from judging.pictures import bands, overlaid, starts
+from judging.panels import Panel, arrow, kept, sheets_of
+from judging.pictures import bands, overlaid, rendered, starts
 from matplotlib.axes import Axes
 from outputs import mass_centre
 
@@ -150,21 +150,24 @@ class Pictures:
                 enumerate(("inner", "outer"))]  # fmt: skip
 
     def orbits(self, names: Mapping[str, str], title: str, column: str) -> list[Panel]:
-        """Orbits of the cage's mass centre, a panel a condition, all on one scale."""
+        """Orbits of the cage's mass centre, a panel a condition, all on one scale about their
+        middles."""
         reading, found = self.computed.readings[column], {}
         for c in reading.among(names):
             run = reading.run(c)
-            found[c] = mass_centre(settled(run), run)[0] * UM
-        reach = 1.05 * max((np.abs(yz).max() for yz in found.values()), default=1.0)
+            found[c] = mass_centre(settled(run), run)[0] * UM * (-1.0, 1.0)
+        middles = {c: 0.5 * (yz.max(axis=0) + yz.min(axis=0)) for c, yz in found.items()}
+        reach = 0.55 * max((np.ptp(yz, axis=0).max() for yz in found.values()), default=1.0)
 
         def draw(c: str) -> Callable[[Axes], None]:
             def drawn(ax: Axes) -> None:
-                ax.plot(found[c][:, 1], -found[c][:, 0], color=TINTS[column], lw=0.6)
-                ax.set(xlim=(-reach, reach), ylim=(-reach, reach))
+                up, across = middles[c]
+                ax.plot(found[c][:, 1], found[c][:, 0], color=TINTS[column], lw=0.6)
+                ax.set(xlim=(across - reach, across + reach), ylim=(up - reach, up + reach))
 
             return drawn
 
-        return [Panel(f"{title}{names[c]}, {READINGS[column]}", "z / um", "-y / um", draw(c),
+        return [Panel(f"{title}{names[c]}, {READINGS[column]}", "z / um", "up / um", draw(c),
                       square=True) for c in found]  # fmt: skip
 
     def over(self, output: str, axis: Mapping[str, float], sample: str, factor: float) -> Callable:
@@ -181,6 +184,12 @@ class Pictures:
             ax.legend(loc="best", fontsize=8, frameon=False)
 
         return drawn
+
+    def of_waves(self, ax: Axes) -> None:
+        """The largest force under each wave of the speed."""
+        places = {wave: float(k) for k, wave in enumerate(WAVES)}
+        self.over("peak", places, "waves", 1.0)(ax)
+        ax.set_xticks(list(places.values()), list(places))
 
 
 def draw(computed, folder: Path) -> dict[str, str]:
@@ -206,18 +215,19 @@ def draw(computed, folder: Path) -> dict[str, str]:
         "7_9": lambda: block(ALL_SPEEDS, speeds, "speeds", "ring speed / rpm")[1:],
         "10_13": lambda: block(ALL_LOADS, loads, "loads", "radial load / N"),
         "14_17": lambda: block(STEPS, steps, "clearance", "clearance of pockets and races / mm"),
-        "18_25": lambda: [p.row(WAVE_NAMES, ring_speed, "ring speed / rpm")[:1],
+        "18_21": lambda: [p.row(WAVE_NAMES, ring_speed, "ring speed / rpm")[:1],
                   p.orbits(WAVE_NAMES, "", first), p.orbits(WAVE_NAMES, "", last),
-                  [Panel("largest force", "0 sine, 1 triangle, 2 rectangle", "force / N",
-                         p.over("peak", {w: float(k) for k, w in enumerate(WAVES)}, "waves", 1.0))],
+                  [Panel("largest force", "", "force / N", p.of_waves)],
                   p.row(WAVE_NAMES, axial, "axial place / um"),
-                  p.row(WAVE_NAMES, slip, "cage slip / %"),
-                  p.orbits(RAMP_NAMES, "", first), p.orbits(RAMP_NAMES, "", last),
+                  p.row(WAVE_NAMES, slip, "cage slip / %")],
+        "22_25": lambda: [p.orbits(RAMP_NAMES, "", first), p.orbits(RAMP_NAMES, "", last),
                   p.row(RAMP_NAMES, force, "force / N"),
                   p.row(RAMP_NAMES, axial, "axial place / um"),
                   p.row(RAMP_NAMES, cage_speed, "cage speed / rpm")],
     }  # fmt: skip
-    return {"sketch": sketch(folder / "sketch.png"), **sheets_of(folder, rows)}
+    path = folder / "bearing.png"
+    hero = kept(path, lambda: rendered(computed.readings[last].run(LOADS[1]), "bearing", path))
+    return {"sketch": sketch(folder / "sketch.png"), "bearing": hero, **sheets_of(folder, rows)}
 
 
 def sketch(path: Path) -> str:

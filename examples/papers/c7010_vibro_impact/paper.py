@@ -102,12 +102,14 @@ def paper_figures(c: Computed, pictures: dict[str, str]) -> list[Figure]:
                f"Zeros are {c.middles('clearance', 'gaps', RACES, PERCENT)} % of the time off the "
                "load with the races' clearance, which opens angles at the load: "
                f"{c.middles('clearance', 'inner_load', RACES, DEG)} degrees (medians)."),
-        Figure("Figures 18 to 25: waves of the speed, and accelerations for equal times",
-               "the rectangle is worst, the sine best; with acceleration orbit, force, frequency "
-               "and axial motion grow.", pictures["18_25"], ("004-6", "004-7"),
+        Figure("Figures 18 to 21: waves of the speed", "the rectangle is worst, the sine best.",
+               pictures["18_21"], ("004-6",),
                f"Slip swings by {c.middles('waves', 'slip_ripple', WAVES, PERCENT)} % (medians): a "
-               "step is faster than friction brings balls along. The fastest acceleration ends "
-               f"fastest: a ball's force has {c.middles('loads', 'frequency', RAMPS)} Hz."),
+               "step is faster than friction brings balls along."),
+        Figure("Figures 22 to 25: accelerations for equal times", "with acceleration orbit, force, "
+               "frequency and axial motion grow.", pictures["22_25"], ("004-7",),
+               "The fastest acceleration ends fastest: a ball's force has "
+               f"{c.middles('loads', 'frequency', RAMPS)} Hz (medians)."),
     ]  # fmt: skip
 
 
@@ -116,7 +118,8 @@ def draft(computed: Computed, folder: Path) -> Draft:
     pictures = draw(computed, folder)
     return Draft(
         summary=summary(computed),
-        hero=(pictures["5_6"], "Force of a ball on its way: dynamics (lines), equilibrium (dots)"),
+        hero=(pictures["bearing"], "8000 rpm, 1500 N axially, 12,500 N radially: balls opposite "
+              "the load are free"),
         model=MODEL, known=KNOWN, figures=paper_figures(computed, pictures), asks=ASKS,
         history=(
             "Earlier pages took the swept load as axial, or as large radially as axially, and "

@@ -58,10 +58,18 @@ def sheets_of(
     found = {}
     for key, panels in rows.items():
         path = folder / f"figure_{key}.png"
-        title = f"Figure{'s' * ('_' in key)} {key.replace('_', ' to ')}"
+        title = titled(key)
         found[key] = kept(path, lambda path=path, title=title, panels=panels: sheet_of(
             path, title, panels()))  # fmt: skip
     return found
+
+
+def titled(key: str) -> str:
+    """The title of a sheet of figures, as "Figures 7 to 9" of "7_9"."""
+    first, _, last = key.partition("_")
+    if not last:
+        return f"Figure {first}"
+    return f"Figures {first} {'and' if int(last) == int(first) + 1 else 'to'} {last}"
 
 
 def kept(path: Path, draw: Callable[[], str]) -> str:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable, Mapping
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,6 +20,14 @@ if TYPE_CHECKING:
 
 Curve = Callable[["Run"], tuple[np.ndarray, np.ndarray]]  # of a run: time [s] and values
 COLOURS = (sheet.INK, sheet.BLUE, sheet.VERMILION, sheet.GREEN, "#b07aa1")
+
+
+def rendered(run: Run, picture: str, path: Path) -> str:
+    """A picture of a run by its name, as ``Run.draw`` makes it; the file's name."""
+    with TemporaryDirectory() as made:
+        run.draw(made, only=[picture])
+        shutil.copy(Path(made) / f"{picture}.png", path)
+    return path.name
 
 
 def overlaid(

@@ -9,7 +9,7 @@ seen, so remove the table after one.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +24,7 @@ from flexcage.study.maps import SAMPLE
 SETTING, START, CONDITION, SECONDS, PHYSICS = "setting", "start", "condition", "seconds", "physics"
 KEYS = [SETTING, START, CONDITION]
 MAP = "map"  # column of the hash
+FEWEST = 32  # settings that a smaller sample may have
 SHORT = 8  # characters of a version of the equations
 DIGITS = "%.7g"
 
@@ -53,6 +54,17 @@ class Settings:
         runs = self.spec.starts * len(self.spec.conditions)
         count = self.table.groupby(SETTING).size()
         return [k for k in range(len(self.spec.shares)) if count.get(k, 0) < runs]
+
+    @property
+    def begun(self) -> Settings:
+        """The first settings, a power of two, that have all their runs, if they are ``FEWEST`` or
+        more: a smaller sample of the same sequence. Otherwise all."""
+        first, size = min(self.lacking, default=len(self.spec.shares)), len(self.spec.shares)
+        while size > first:
+            size //= 2
+        if size < FEWEST or self.spec.design != "sample":
+            return self
+        return Settings(replace(self.spec, count=size), self.table[self.table[SETTING] < size])
 
     @property
     def seconds(self) -> float:

@@ -4,15 +4,17 @@ overlaid on one axis."""
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable, Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from math import pi
 from pathlib import Path
 
 import numpy as np
 from claims import BENT1, BENT2, CROSSBEAM, LONGER, SHORTER, SOUND
-from judging.panels import Panel, kept, sheet_of
-from judging.pictures import COLOURS, overlaid
+from judging.panels import Panel, kept, sheets_of
+from judging.pictures import COLOURS, Curve, overlaid
+from judging.readings import Reading
 from matplotlib.axes import Axes
 from mesh_error import pinch
 from outputs import AFTER, AT, BEFORE, PLACES
@@ -58,7 +60,7 @@ def cage_speed(run: Run) -> tuple[np.ndarray, np.ndarray]:
     return run.dataset["time"].values * 1e3, run.dataset["cage_omega"].sel(axis="x").values * RPM
 
 
-def roller_speed(roller: int) -> Callable[[Run], tuple[np.ndarray, np.ndarray]]:
+def roller_speed(roller: int) -> Curve:
     """Speed of a roller [rpm] over time [ms], positive as in rolling."""
 
     def curve(run: Run) -> tuple[np.ndarray, np.ndarray]:
@@ -68,90 +70,85 @@ def roller_speed(roller: int) -> Callable[[Run], tuple[np.ndarray, np.ndarray]]:
     return curve
 
 
-def in_a_row(
-    path: Path, title: str, columns: Sequence[str], unit: str, draw: Callable[[Axes, str], None],
-    *, below: str = "time / ms",
-) -> str:  # fmt: skip
-    """Panels, one a column, on one scale; the file's name."""
-    row = [Panel(READINGS.get(c, c), below, unit, partial(draw, column=c), unit) for c in columns]
-    return kept(path, lambda: sheet_of(path, title, [row]))
+@dataclass(frozen=True)
+class Rows:
+    """Rows of panels of the runs that were kept: ``readings`` by column."""
+
+    readings: Mapping[str, Reading]
+
+    def over_time(self, word: str, unit: str, curve: Curve, cages: Sequence[str]) -> list[Panel]:
+        """One curve a cage, overlaid; one panel a reading."""
+
+        def draw(ax: Axes, column: str) -> None:
+            there = self.readings[column].among({c: NAMES[c] for c in cages})
+            overlaid(ax, self.readings[column], there, curve)
+            last_half(ax, self.readings[column].run(cages[0]))
+            if curve is corner:
+                with_printed(ax, SHORTER in there)
+
+        scale = "" if curve is shake else unit
+        return [Panel(f"{word}, {READINGS[c]}", "time / ms", unit, partial(draw, column=c), scale)
+                for c in self.readings]  # fmt: skip
+
+    def orbits(self, column: str, cages: Sequence[str]) -> list[Panel]:
+        """Orbits of the cage's centre of a reading, one panel a cage."""
+
+        def draw(ax: Axes, cage: str) -> None:
+            run = self.readings[column].run(cage)
+            yz = metrics.orbit(metrics.settled(run.dataset, run.case.output.settle)) * UM
+            ax.plot(yz[:, 1], -yz[:, 0], color=COLOURS[1], lw=0.7)
+            ring = np.exp(1j * np.linspace(0.0, 2.0 * pi, 200)) * run.case.land.clearance * UM
+            ax.plot(ring.real, ring.imag, color="0.6", lw=0.8, ls="--")
+            ax.set(aspect="equal", xlim=(-420, 420), ylim=(-420, 420))
+
+        short = READINGS[column].split()[0]
+        return [Panel(f"{NAMES[c]}, {short}", "across the load / um", "up / um",
+                      partial(draw, cage=c), square=True) for c in cages]  # fmt: skip
+
+    def rollers(self, cages: Sequence[str]) -> list[Panel]:
+        """Speeds of rollers j-1, j and j+1 of the first reading: one panel a roller."""
+        reading = next(iter(self.readings.values()))
+
+        def draw(ax: Axes, roller: int) -> None:
+            overlaid(ax, reading, reading.among({c: NAMES[c] for c in cages}), roller_speed(roller))
+            last_half(ax, reading.run(cages[0]))
+
+        return [Panel(f"roller {n}", "time / ms", "speed / rpm", partial(draw, roller=k), "rpm")
+                for k, n in ROLLERS.items()]  # fmt: skip
 
 
-def over_time(computed, folder: Path, name: str, title: str, unit: str, curve, cages) -> str:
-    """One curve a cage, overlaid; one panel a reading."""
-    readings = computed.readings
-
-    def draw(ax: Axes, column: str) -> None:
-        there = readings[column].among({c: NAMES[c] for c in cages})
-        overlaid(ax, readings[column], there, curve)
-        time, _ = curve(readings[column].run(cages[0]))
-        ax.set_xlim(0.5 * time[-1], time[-1])
-        if curve is corner and SHORTER in there:
-            ax.axhline(ROOT, color=sheet.INK, ls="--", lw=1.0)
-            ax.annotate("printed", (0.51 * time[-1], ROOT), va="bottom", fontsize=8)
-
-    return in_a_row(folder / f"{name}.png", title, list(readings), unit, draw)
+def last_half(ax: Axes, run: Run) -> None:
+    """Show the settled half of a record."""
+    time = run.dataset["time"].values[-1] * 1e3
+    ax.set_xlim(0.5 * time, time)
 
 
-def orbits(computed, folder: Path, name: str, title: str, cages) -> str:
-    """Orbits of the cage's centre, one panel a cage, of the first reading."""
-    reading = next(iter(computed.readings.values()))
-
-    def draw(ax: Axes, column: str) -> None:
-        run = reading.run(column)
-        yz = metrics.orbit(metrics.settled(run.dataset, run.case.output.settle)) * UM
-        ax.plot(yz[:, 1], -yz[:, 0], color=COLOURS[1], lw=0.7)
-        ring = np.exp(1j * np.linspace(0.0, 2.0 * pi, 200)) * run.case.land.clearance * UM
-        ax.plot(ring.real, ring.imag, color="0.6", lw=0.8, ls="--")
-        ax.set(aspect="equal", xlim=(-380, 380), ylim=(-280, 280))
-
-    return in_a_row(
-        folder / f"{name}.png", title, list(cages), "down / um", draw, below="across the load / um"
-    )
-
-
-def roller_speeds(computed, folder: Path, name: str, title: str, cages) -> str:
-    """Speeds of rollers j-1, j and j+1: one panel a roller, one curve a cage."""
-    reading = next(iter(computed.readings.values()))
-
-    def draw(ax: Axes, column: str) -> None:
-        roller = next(k for k, n in ROLLERS.items() if n == column)
-        there = reading.among({c: NAMES[c] for c in cages})
-        overlaid(ax, reading, there, roller_speed(roller))
-        time = reading.run(cages[0]).dataset["time"].values * 1e3
-        ax.set_xlim(0.5 * time[-1], time[-1])
-
-    return in_a_row(folder / f"{name}.png", title, list(ROLLERS.values()), "speed / rpm", draw)
+def with_printed(ax: Axes, shown: bool) -> None:
+    """Stress over decades, with the printed number where the shorter pocket is ``shown``."""
+    ax.set(yscale="log", ylim=(0.5, 2000.0))
+    if shown:
+        ax.axhline(ROOT, color=sheet.INK, ls="--", lw=1.0)
+        ax.annotate("printed", (0.02, ROOT), xycoords=("axes fraction", "data"), fontsize=8)
 
 
 def draw(computed, folder: Path) -> dict[str, str]:
-    """All pictures by the figure that they repeat."""
-    histories = (
-        (
-            "8",
-            "Figure 8: equivalent stress, displaced crossbeam",
-            "stress / MPa",
-            corner,
-            CROSSBEAM,
-        ),
-        ("9", "Figure 9: radial displacement of the cage", "distance / um", radial, CROSSBEAM),
-        ("11", "Figure 11: acceleration of the outer ring", "m/s²", shake, CROSSBEAM),
-        ("12", "Figure 12: cage speed", "speed / rpm", cage_speed, CROSSBEAM),
-        ("14", "Figure 14: equivalent stress, displaced side beam", "stress / MPa", corner, SIDE),
-        ("15", "Figure 15: radial displacement of the cage", "distance / um", radial, SIDE),
-        ("17", "Figure 17: acceleration of the outer ring", "m/s²", shake, SIDE),
-        ("18", "Figure 18: cage speed", "speed / rpm", cage_speed, SIDE),
-    )
-    found = {
-        key: over_time(computed, folder, f"figure_{key}", title, unit, curve, cages)
-        for key, title, unit, curve, cages in histories
-    }
-    found["10"] = orbits(computed, folder, "figure_10", "Figure 10: orbit, crossbeam", CROSSBEAM)
-    found["16"] = orbits(computed, folder, "figure_16", "Figure 16: orbit, side beam", SIDE)
-    found["13"] = roller_speeds(
-        computed, folder, "figure_13", "Figure 13: roller speeds, crossbeam", CROSSBEAM
-    )
-    found["19"] = roller_speeds(
-        computed, folder, "figure_19", "Figure 19: roller speeds, side beam", SIDE
-    )
-    return found | {"pinch": kept(folder / "pinch.png", partial(pinch, computed, folder))}
+    """All pictures by the figures that they repeat."""
+    rows = Rows(computed.readings)
+    first, last = list(computed.readings)
+
+    def stress(cages: Sequence[str]) -> list[list[Panel]]:
+        return [rows.over_time("stress", "stress / MPa", corner, cages),
+                rows.over_time("displacement", "distance / um", radial, cages)]  # fmt: skip
+
+    def shakes(cages: Sequence[str]) -> list[list[Panel]]:
+        return [rows.over_time("acceleration", "m/s²", shake, cages),
+                rows.over_time("cage speed", "speed / rpm", cage_speed, cages)]  # fmt: skip
+
+    sheets = sheets_of(folder, {
+        "8_9": lambda: stress(CROSSBEAM),
+        "10": lambda: [rows.orbits(c, CROSSBEAM) for c in (first, last)],
+        "11_12": lambda: shakes(CROSSBEAM), "13": lambda: [rows.rollers(CROSSBEAM)],
+        "14_15": lambda: stress(SIDE), "16": lambda: [rows.orbits(c, SIDE) for c in (first, last)],
+        "17_18": lambda: shakes(SIDE), "19": lambda: [rows.rollers(SIDE)],
+    })  # fmt: skip
+    return sheets | {"pinch": kept(folder / "pinch.png", partial(pinch, computed, folder))}

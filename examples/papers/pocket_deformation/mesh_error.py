@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import shutil
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 from claims import BENT2, SHORTER, SOUND
 from judging.page import Table
+from judging.pictures import rendered
 from judging.readings import NoRuns
 
 from flexcage.study import StudyResults
@@ -30,11 +29,7 @@ def pinch(computed, folder: Path) -> str:
     if found is None:
         raise NoRuns("The study over three meshes is not there; compute it first.")
     row = next(r for r in found.rows if _at(r, SHORTER) and _fineness(r) == "medium")
-    run = found.run(row.planned.number)
-    with TemporaryDirectory() as made:
-        run.draw(made, only=["stress_pocket"])
-        shutil.copy(Path(made) / "stress_pocket.png", folder / "pinch.png")
-    return "pinch.png"
+    return rendered(found.run(row.planned.number), "stress_pocket", folder / "pinch.png")
 
 
 def mesh_errors(computed) -> Table | None:

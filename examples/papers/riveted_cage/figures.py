@@ -11,9 +11,10 @@ import numpy as np
 import pandas as pd
 from claims import BASE, FORCE, ROOT, SLIP, TILT
 from judging.panels import kept
-from judging.pictures import COLOURS, bands, starts
+from judging.pictures import COLOURS, bands, rendered, starts
 from matplotlib.axes import Axes
 from outputs import CLAMP, FRICTION, PLAYS, ROOT_RADIUS, joint
+from predict import design_samples
 from sketch import draw_sketch
 
 from flexcage import Run
@@ -40,7 +41,8 @@ INNER = {"f_i 0.505": 0.505, BASE: 0.515, "f_i 0.525": 0.525}
 OUTER = {"f_e 0.515": 0.515, BASE: 0.525, "f_e 0.530": 0.530}
 PLAY = {"Pd 5": 5.0, BASE: 10.0, "Pd 20": 20.0}
 CAGES = {"modified 9000": 0.0, "original 9000": 1.0}
-WIDE, HIGH, LEFT, TOP, GAP = 400, 260, 90, 110, 100  # px, of panels
+WIDE, HIGH, LEFT, TOP, GAP, BELOW = 400, 260, 90, 125, 100, 115  # px, of panels
+BESIDE = 0.02  # mm beside the joint's plane of symmetry, on which faces of elements lie
 
 Axis = Mapping[str, float]
 Panel = tuple[str, str, Axis, str, str]  # title, output, axis, its name, sample
@@ -71,13 +73,13 @@ def sweep(computed, folder: Path, name: str, title: str, panels: Sequence[Panel]
     lines = -(-len(panels) // columns)
     with sheet.style():
         figure = sheet.new_figure(LEFT + min(columns, len(panels)) * (WIDE + GAP),
-                                  TOP + lines * (HIGH + 90) + 10)  # fmt: skip
+                                  TOP + lines * (HIGH + BELOW))  # fmt: skip
         sheet.heading(figure, title, "band: middle 80 % of settings and median; marks: starts of "
                       "readings, least to largest")  # fmt: skip
         drawn: dict[str, list[Axes]] = {}
         for k, (word, output, axis, below, sample) in enumerate(panels):
             row, column = divmod(k, columns)
-            place = (LEFT + column * (WIDE + GAP), TOP + row * (HIGH + 90), WIDE, HIGH)
+            place = (LEFT + column * (WIDE + GAP), TOP + row * (HIGH + BELOW), WIDE, HIGH)
             ax = sheet.axes_at(figure, place)
             panel(ax, computed, output, axis, sample)
             printed(ax, output, axis)
@@ -90,7 +92,7 @@ def sweep(computed, folder: Path, name: str, title: str, panels: Sequence[Panel]
             drawn.setdefault(output, []).append(ax)
         if name == "figure_5":
             row, column = divmod(len(panels), columns)
-            place = (LEFT + column * (WIDE + GAP), TOP + row * (HIGH + 90), WIDE, HIGH)
+            place = (LEFT + column * (WIDE + GAP), TOP + row * (HIGH + BELOW), WIDE, HIGH)
             orbits(sheet.axes_at(figure, place), computed)
         for axes in drawn.values():
             top = max(ax.get_ylim()[1] for ax in axes)
@@ -142,7 +144,7 @@ def section(ax: Axes, result: JointResult, most: float):
     kinds = np.full(len(tets), pyvista.CellType.TETRA)
     grid = pyvista.UnstructuredGrid(cells, kinds, bodies.nodes * 1e3)
     grid["stress"] = result.instants["again"].equivalent * 1e-6
-    cut = grid.slice(normal="z", origin=(0.0, 0.0, 1e-6)).triangulate()
+    cut = grid.slice(normal="z", origin=(0.0, 0.0, BESIDE)).triangulate()
     triangles = cut.faces.reshape(-1, 4)[:, 1:]
     image = ax.tripcolor(cut.points[:, 1], cut.points[:, 0], triangles, cut["stress"],
                          shading="gouraud", cmap="inferno", vmin=0.0, vmax=most)  # fmt: skip
@@ -159,16 +161,18 @@ def joints(computed, folder: Path) -> str:
     most = 1e-6 * max(float(np.percentile(stress, 99.8)) for stress in top.values())
     names = {"tight": "interference of 3 um", "loose": "play of 3 um"}
     with sheet.style():
-        figure = sheet.new_figure(1500, 560)
+        figure = sheet.new_figure(1560, 570)
         under = "equivalent stress, linear elastic: (a, b) section, (c) largest by place"
         sheet.heading(figure, "Figures 4 and 10: stress of the rivet by its fit", under)
         for k, name in enumerate(("tight", "loose")):
-            ax = sheet.axes_at(figure, (80 + k * 440, TOP, 370, 360))
+            ax = sheet.axes_at(figure, (100 + k * 410, TOP, 370, 350))
             image = section(ax, found[name], most)
+            if k:
+                ax.set(ylabel="", yticklabels=())
             ax.set_title(f"({'ab'[k]}) {names[name]}", loc="left", fontsize=10)
-        bar = figure.colorbar(image, cax=sheet.axes_at(figure, (915, TOP, 16, 360)))
+        bar = figure.colorbar(image, cax=sheet.axes_at(figure, (900, TOP, 16, 350)))
         bar.set_label("MPa")
-        over_fits(sheet.axes_at(figure, (1060, TOP, 380, 360)))
+        over_fits(sheet.axes_at(figure, (1110, TOP, 400, 350)))
         sheet.save(figure, folder / "figure_10.png")
     return "figure_10.png"
 
@@ -221,8 +225,6 @@ def of_both(ax: Axes, computed, output: str, sample: str) -> None:
 
 def surface(computed, folder: Path) -> str:
     """Figure 8: the 49 cages of Table 3, and the printed numbers that are shown."""
-    from predict import design_samples
-
     with sheet.style():
         figure = sheet.new_figure(1180, 600)
         under = "N; left computed, right the printed cross that is at hand; one scale"
@@ -268,6 +270,9 @@ def draw(computed, folder: Path) -> dict[str, str]:
     found = {"sketch": draw_sketch(folder / "sketch.png")}
     if FLEXIBLE in c.readings:
         found["10"] = kept(folder / "figure_10.png", lambda: joints(c, folder))
+        path = folder / "stress.png"
+        found["stress"] = kept(path, lambda: rendered(
+            c.readings[FLEXIBLE].run(BASE), "stress_peak", path))  # fmt: skip
     found["5"] = kept(folder / "figure_5.png", lambda: sweep(
         c, folder, "figure_5", "Figure 5: over the pocket radius", (
         ("(a) force", FORCE, *radius, CAGE), ("(b) rivets", ROOT, *radius, RIVET),

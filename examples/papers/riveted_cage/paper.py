@@ -153,8 +153,8 @@ def draft(computed: Computed, folder: Path) -> Draft:
     p = draw(computed, folder)
     return Draft(
         summary=summary(computed),
-        hero=(p["5"], "Over the pocket radius: ball-cage force with the printed numbers, stress of "
-              "rivets, slip and tilt"),
+        hero=(p["stress"], "The modified cage, flexible and as the rig loads it, at its largest "
+              "stress (coarse mesh)"),
         model=MODEL_TEXT, known=KNOWN, figures=paper_figures(computed, p), asks=ASKS,
         history=(
             "Earlier pages judged the slip with its sign, a peak of single starts, and balls of "
