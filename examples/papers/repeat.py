@@ -365,11 +365,15 @@ def _cost(computed: Computed) -> str:
     each = ", ".join(f"{name} {seconds / 60.0:,.0f}" for name, seconds in times.items())
     total = sum(times.values()) / 60.0
     physics = set().union(*(found.physics for found in computed.maps.values()))
+    begun: dict[str, list[str]] = {}
+    for file, found in computed.maps.items():
+        if found.lacking:
+            share = f"{len(found.begun.spec.shares)} of {len(found.spec.shares)}"
+            begun.setdefault(share, []).append(Path(file).stem)
     lacking = [
-        f"Of {file} the first {len(found.begun.spec.shares)} of {len(found.spec.shares)} settings "
-        "are judged, as not all are computed."
-        for file, found in computed.maps.items() if found.lacking
-    ]  # fmt: skip
+        f"Not all settings are computed: the first {share} are judged ({', '.join(names)})."
+        for share, names in begun.items()
+    ]
     return " ".join([
         f"Computed with flexcage {flexcage.__version__}, {date.today():%-d %B %Y}; "
         f"{total:,.0f} minutes of processor time ({each}).",

@@ -23,10 +23,12 @@ def mechanisms(computed: Computed) -> dict[str, str]:
     flat = computed.share(CAGE, lambda at: (
         abs(at(FORCE, WIDTHS[0]) / at(FORCE, BASE) - 1.0) < 0.1))  # fmt: skip
     if flat > MOSTLY:
-        found["001-3, force"] = "a wider pocket is touched where the narrower one is"
+        found["001-3, force over width"] = "a wider pocket is touched where the narrower one is"
     falls = computed.share(CAGE, lambda at: at(FORCE, BOTH[1]) < at(FORCE, BOTH[0]))
     if falls > MOSTLY:
-        found["001-11, rivets"] = "balls have more room in the original cage, and strike it less"
+        found["001-11, original more stressed"] = (
+            "balls have more room in the original cage, and strike it less"
+        )
     bends = computed.share(JOINT, lambda at: (
         at("root_tight", BASE) > 1.5 * at("eave_tight", BASE)))  # fmt: skip
     if bends > MOSTLY:
