@@ -69,7 +69,8 @@ class Paper:
 
     ``samples`` names the maps (files, joined) over which claims are judged: the first one, or that
     of ``judged_by`` by the claim's key. ``readings`` are studies by column: a file, and a label of
-    its axis "reading". ``drifting`` is the output that is 1 for a run that is not stationary.
+    its axis "reading". ``drifting`` is the output that is 1 for a run that is not stationary, and
+    ``spoilt`` names the outputs that are left out of it (none: all).
     ``scatter``: of starts, as a share of their mean, by output; for the power of the rules.
     ``mechanisms``: what contradicts a claim's part ("key, part"), from the runs.
     """
@@ -82,6 +83,7 @@ class Paper:
     judged_by: Mapping[str, str] = field(default_factory=dict)
     studies: Sequence[str] = ()
     drifting: str = ""
+    spoilt: Sequence[str] = ()
     scatter: Mapping[str, float] = field(default_factory=dict)
     mechanisms: Callable[[Computed], Mapping[str, str]] = lambda computed: {}
     draft: Callable[[Computed, Path], Draft]
@@ -243,7 +245,7 @@ def collect(paper: Paper, folder: Path, out: Path, *, quick: bool = False) -> Co
         there = [maps[file].begun for file in files if file in maps]
         if there:
             specs[name] = there[0].spec
-            samples[name] = sample_of(there, paper.drifting)
+            samples[name] = sample_of(there, paper.drifting, paper.spoilt)
     stored = {} if quick else read_starts(folder / STARTS)
     readings = readings_of(out, paper.readings, stored)
     times: dict[str, float] = {}

@@ -133,9 +133,8 @@ def test_a_page_is_judged_from_its_tables(tables, paper, folder, tmp_path):
     computed = repeat.collect(paper, folder, tmp_path / "none")
     first = paper.claims[0]
     part, finding = next(iter(first.parts.items()))
-    whole = sample_of(
-        [tables[file] for file in paper.samples[paper.sample_for(first)]], paper.drifting
-    )
+    parts = [tables[file] for file in paper.samples[paper.sample_for(first)]]
+    whole = sample_of(parts, paper.drifting, paper.spoilt)
     assert computed.of(first.key, part).judged.outcomes == judge(finding, whole).outcomes
     rows = sum(len(there.table) for there in tables.values())
     assert sum(computed.times.values()) == pytest.approx(2.0 * rows)

@@ -38,12 +38,12 @@ def falls(output: str, conditions: tuple[str, ...], by: float = 0.0) -> Trend:
     return Trend(output, conditions, rising=False, by=by)
 
 
-def of_the_cage(conditions: tuple[str, str]) -> dict:
-    """Figures 15 and 16: what the cage does as a clearance grows."""
+def of_the_cage(conditions: tuple[str, str], of: str) -> dict:
+    """Figures 15 and 16: what the cage does as a clearance grows, that ``of`` what is named."""
     return {
-        "steady whirl at 0.02": Within("line", conditions[:1], low=REGULAR),
-        "whirl gone at 0.14": Within("line", conditions[-1:], high=REGULAR),
-        "ratio rises": Trend("deviation", conditions),
+        f"steady whirl at 0.02 ({of})": Within("line", conditions[:1], low=REGULAR),
+        f"whirl gone at 0.14 ({of})": Within("line", conditions[-1:], high=REGULAR),
+        f"ratio rises ({of})": Trend("deviation", conditions),
     }
 
 
@@ -64,7 +64,7 @@ CLAIMS = (
     ),
     Claim(
         "004-1", "Balls' largest force on the inner ring rises with speed", "Figure 6",
-        {"rises": Trend("one_peak", SPEEDS)}, change=0.02,
+        {"peak rises": Trend("one_peak", SPEEDS)}, change=0.02,
     ),
     Claim(
         "004-1b", "Forces are largest at the load, and zero from time to time off it", "Figure 6",
@@ -84,21 +84,21 @@ CLAIMS = (
     ),
     Claim(
         "004-2b", "The deviation ratio of the cage's speed falls with the ring's speed", "Figure 8",
-        {"falls": falls("deviation", SPEEDS)},
+        {"ratio falls": falls("deviation", SPEEDS)},
     ),
     Claim(
         "004-3", "At one place contact angles hardly depend on speed; inner and outer ones differ; "
         "the outer is largest at the load", "Figures 9, 17",
         {
-            "inner": Same("inner_load", SPEEDS, within=TENUOUS),
-            "outer": Same("outer_load", SPEEDS, within=TENUOUS),
-            "inner is larger": Below("outer_load", "inner_load", SPEEDS[-1:], by=0.01),
+            "inner angle stays": Same("inner_load", SPEEDS, within=TENUOUS),
+            "outer angle stays": Same("outer_load", SPEEDS, within=TENUOUS),
+            "inner angle larger": Below("outer_load", "inner_load", SPEEDS[-1:], by=0.01),
             "outer largest at the load": Below("outer_off", "outer_load", SPEEDS),
         },
     ),
     Claim(
         "004-4d", "Force rises with load at the load; opposite it is zero more often", "Figure 10",
-        {"rises": Trend("one_peak", LOADS), "zeros grow": Trend("gaps", LOADS)}, change=0.5,
+        {"force rises": Trend("one_peak", LOADS), "zeros grow": Trend("gaps", LOADS)}, change=0.5,
     ),
     Claim(
         "004-4", "With load a regular orbit becomes chaotic, and the deviation ratio rises",
@@ -111,17 +111,17 @@ CLAIMS = (
     ),
     Claim(
         "004-4b", "At the largest load the deviation ratio is 24.44 % (a fifth)", "conclusion 2",
-        {"its size": Within("deviation", LOADS[-1:], (1 - NEAR) * PRINTED, (1 + NEAR) * PRINTED)},
+        {"24.44 %": Within("deviation", LOADS[-1:], (1 - NEAR) * PRINTED, (1 + NEAR) * PRINTED)},
     ),
     Claim(
         "004-4c", "With load contact angles rise in the loaded zone and fall opposite", "Figure 13",
-        {"rise at the load": Trend("inner_load", LOADS),
-         "fall opposite": falls("outer_off", LOADS)},
+        {"angle rises at the load": Trend("inner_load", LOADS),
+         "angle falls opposite": falls("outer_off", LOADS)},
         change=0.05,
     ),
     Claim(
         "004-5", "With the clearance of the pockets steady whirl goes, and the deviation ratio "
-        "rises", "Figures 15, 16", of_the_cage(POCKETS),
+        "rises", "Figures 15, 16", of_the_cage(POCKETS, "pockets"),
     ),
     Claim(
         "004-5b", "With the races' clearance balls off the load are free more often, and "
@@ -129,7 +129,7 @@ CLAIMS = (
     ),
     Claim(
         "004-5c", "The same with one clearance for pockets and races", "Figures 14 to 17",
-        of_the_cage(BOTH) | {"zeros grow": Trend("gaps", BOTH)},
+        of_the_cage(BOTH, "both") | {"zeros grow (both)": Trend("gaps", BOTH)},
     ),
     Claim(
         "004-6", "Of three waves of the speed the rectangle is worst, the sine best",

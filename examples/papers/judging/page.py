@@ -44,6 +44,12 @@ class Found:
     condition: str = ""
 
     @property
+    def why(self) -> str:
+        """The condition that it is reproduced under, or what contradicts it."""
+        verdict = self.judged.verdict
+        return {UNDER: self.condition, CONTRADICTED: self.judged.reason}.get(verdict, "")
+
+    @property
     def marked(self) -> str:
         """The part with the mark of its verdict, and the condition that it is reproduced under."""
         under = f" ({self.condition})" if self.judged.verdict == UNDER else ""
@@ -161,7 +167,7 @@ def _by_verdict(found: Sequence[Found]) -> list[str]:
     """Sentences: each verdict with the findings that have it."""
     sentences = []
     for verdict, mark in MARKS.items():
-        parts = [f.part + (f" ({f.condition})" if f.condition and verdict == UNDER else "")
+        parts = [f.part + (f" ({f.why})" if f.why else "")
                  for f in found if f.judged.verdict == verdict]  # fmt: skip
         if parts:
             word = "reproduced under a condition" if verdict == UNDER else verdict

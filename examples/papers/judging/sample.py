@@ -14,18 +14,19 @@ ALIAS = 0.6  # correlation of two unknowns (or of their middles) from which they
 CELLS = 4  # parts of a range by which coverage of pairs is counted
 
 
-def sample_of(parts: Sequence[Settings], drifting: str = "") -> Sample:
+def sample_of(parts: Sequence[Settings], drifting: str = "", spoilt: Sequence[str] = ()) -> Sample:
     """Maps of the same unknowns, conditions and outputs as one sample.
 
     A run whose output ``drifting`` is above 1/2 is not stationary: its numbers depend on how long
-    it was followed, so they are left out.
+    it was followed, so they are left out; of outputs that are ``spoilt`` by it, or all if none is.
     """
     first = parts[0]
     values = {}
     for condition in first.conditions:
         kept = [_steady(part, condition, drifting) for part in parts]
         for output in first.spec.outputs:
-            found = [np.where(there, part.values(output, condition), np.nan)
+            counts = not spoilt or output in spoilt
+            found = [np.where(there if counts else True, part.values(output, condition), np.nan)
                      for part, there in zip(parts, kept)]  # fmt: skip
             values[output, condition] = np.concatenate(found)
     shares = np.vstack([part.spec.shares[:, :-1] for part in parts])
@@ -70,7 +71,8 @@ def _limits(unknown: Unknown, low: float, high: float) -> str:
 def _short(value: object) -> str:
     """A number, with its unit if it has one, in two digits."""
     number, _, unit = str(value).partition(" ")
-    return f"{float(number):.2g} {unit}".rstrip()
+    short = float(f"{float(number):.2g}")
+    return f"{short:{',.0f' if abs(short) >= 100.0 else 'g'}} {unit}".rstrip()
 
 
 def aliases(shares: np.ndarray, names: Sequence[str]) -> list[str]:

@@ -95,8 +95,8 @@ def summary(computed: Computed) -> str:
         "balls of 6.747 mm judged by 6.47 mm make 1.4 % of it, contact angles "
         f"{m(CAGE, 'angle', BOTH[0], PERCENT)} %. "
         f"{computed.counts['reproduced']} of {len(computed.found)} findings are reproduced, "
-        f"{computed.counts['reproduced under']} more under a condition named below, and "
-        f"{computed.counts['contradicted']} are contradicted."
+        f"{computed.counts['reproduced under']} more under a condition named below; "
+        f"contradicted: {computed.counts['contradicted']}."
     )
 
 
