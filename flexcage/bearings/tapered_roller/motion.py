@@ -1,0 +1,34 @@
+"""Tapered rollers in motion, as the equations of motion want them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from flexcage.bearings.cylindrical_roller.scales import roller_weights
+from flexcage.bearings.tapered_roller.model import (
+    TaperedModel,
+    build_tapered_model,
+    tapered_work,
+)
+from flexcage.bearings.tapered_roller.neighbours import touch_next
+from flexcage.bearings.tapered_roller.residual import evaluate
+from flexcage.bearings.tapered_roller.start import tapered_start
+from flexcage.system.equations import shared_equations
+from flexcage.system.motion import Motion, parts_type
+
+TaperedParts = parts_type("TaperedParts", TaperedModel, __name__)
+
+_WEIGHTS: Any = roller_weights
+_UNCAGED = (touch_next, shared_equations), ("next roller",)
+MOTION = Motion(
+    build_model=build_tapered_model,
+    parts=TaperedParts,
+    new_work=tapered_work,
+    evaluate=evaluate,
+    separate=_UNCAGED[0],
+    faces=_UNCAGED[1],
+    uncaged=_UNCAGED,
+    ribs=("small end", "large rib"),
+    start=tapered_start,
+    error_weights=_WEIGHTS,
+)
