@@ -32,12 +32,13 @@ from flexcage.contacts.evaluation import (
     RIB_RUBS,
     RUBBED,
     STORED,
+    TANGENT,
 )
 from flexcage.contacts.race import race_forces
 from flexcage.contacts.slices import Laws
 from flexcage.contacts.state import CENTRE, take_pose
-from flexcage.core.jit import fields, part
-from flexcage.core.vectors import dot, row, xyz
+from flexcage.core.jit import fields, outlined, part
+from flexcage.core.vectors import TURN, dot, row, turned, xyz
 from flexcage.system.data import (
     FAMILY_PARTS,
     IN_CONTACTS,
@@ -68,6 +69,8 @@ def evaluate(t, y, yd, d, law, out, mode):
     if mode == OUTER_RING:
         return
     law[POCKETS](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
+    if mode == TANGENT:
+        _along_axes(d)
     roller_rows(y, yd, d, out, mode)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
 
@@ -124,3 +127,36 @@ def _approach(i, race, ring, side, d):
     along = V[0] - ring.u[0]
     outwards = V[1] - dot(row(F, 1), xyz(ring.u))
     fields(d.report).approach[i, race] = -side.sign * (side.cos * outwards + side.sin * along)
+
+
+@outlined
+def _along_axes(d):
+    """Turn what contacts have added to the tangent into the axes of the rollers' rotations, which
+    are not those of the orbital frames."""
+    tan, poses = fields(d.tangent), fields(d.scratch).poses
+    for i in range(poses.shape[0]):
+        take_pose(poses[i], fields(d.pose))
+        axis = fields(d.pose).axis
+        for M in (tan.Krr[i], tan.Crr[i]):
+            _turn_rows(axis, M)
+            _turn_columns(axis, M)
+        for M in (tan.Krb[i], tan.Crb[i]):
+            _turn_rows(axis, M)
+        for M in (tan.Kbr[i], tan.Cbr[i]):
+            _turn_columns(axis, M)
+
+
+@part
+def _turn_rows(axis, M):
+    """Moments, the rows from TURN on."""
+    for c in range(M.shape[1]):
+        m = turned(axis, (M[TURN, c], M[TURN + 1, c], M[TURN + 2, c]))
+        M[TURN, c], M[TURN + 1, c], M[TURN + 2, c] = m
+
+
+@part
+def _turn_columns(axis, M):
+    """Rotations, the columns from TURN on."""
+    for r in range(M.shape[0]):
+        m = turned(axis, (M[r, TURN], M[r, TURN + 1], M[r, TURN + 2]))
+        M[r, TURN], M[r, TURN + 1], M[r, TURN + 2] = m
