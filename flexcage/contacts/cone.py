@@ -192,7 +192,7 @@ def cone_wrench(m, pose, side, rw, pair, mode, sums):
         if mode == REPORT:
             _report(first, side, pose, sl, sums)
     if mode == TANGENT:
-        _cone_tangent(first, pose, side, ring_axis, sl, pair)
+        _cone_tangent(first, pose, side, rw.partner[m], sl, pair)
     if side.rolling[0] > 0.0:
         # shear on the surface, a couple about the roller's axis, and the pressure that balances it
         a, F = row(pose.axis, 0), rw.rolling[m]
@@ -239,9 +239,10 @@ def _report(first, side, pose, sl, sums):
 
 
 @outlined
-def _cone_tangent(first, pose, side, ring_axis, sl, pair):
+def _cone_tangent(first, pose, side, partner, sl, pair):
     """The slices' share of the pair's tangent."""
-    a = row(pose.axis, 0)
+    a, ring_axis = row(pose.axis, 0), row(partner, AXIS)
+    line, _ = cone_line(pose, partner)
     for k in range(side.s.shape[0]):
         at = first + np.uint64(k)
         if sl.N[at] <= 0.0:
@@ -249,16 +250,22 @@ def _cone_tangent(first, pose, side, ring_axis, sl, pair):
         n = (sl.n1[at], sl.n2[at], sl.n3[at])
         t = times(side.sign / side.cos, cross(ring_axis, n))
         l = times(1.0 / side.cos, combine(ring_axis, -side.sign * side.sin, n))
-        add_sphere_tangent(at, side.s[k], side.reach[k], a, (n, l, t), sl, pair)
+        x = combine(line.x0, side.s[k], line.x1)
+        bend = side.sign * side.cos / sqrt(dot(x, x))
+        add_sphere_tangent(at, (side.s[k], side.reach[k], bend), a, (n, l, t), sl, pair)
 
 
 @part
-def add_sphere_tangent(at, s, reach, a, directions, sl, pair):
-    """Slopes of contact ``at`` of a sphere at s on the roller's axis a, of radius ``reach``;
-    ``directions``: of its normal force and of its sliding sl.t1, sl.t2."""
+def add_sphere_tangent(at, sphere, a, directions, sl, pair):
+    """Slopes of contact ``at`` of a ``sphere``: its place s on the roller's axis a, its radius, and
+    how its normal turns over its way round the ring; ``directions``: of its normal force and of its
+    sliding sl.t1, sl.t2."""
     n, l, t = directions
+    s, reach, bend = sphere
     Wn, Wl, Wt, Wf = pair.W[0], pair.W[1], pair.W[2], pair.W[WHOLE]
     r = combine(times(s, a), -reach, n)
+    add_generator(t, times(s, a), Wt)
+    add_outer(pair.K, -sl.N[at] * bend, Wt, Wt)
     add_generator(n, r, Wn)
     add_generator(l, r, Wl)
     add_generator(t, r, Wt)
@@ -307,7 +314,7 @@ def end_contact(pose, partner, data, onset, laws, sl, pair, mode, sums):
     f = times(sl.N[0], combine(f, -sl.g[0] * sl.t2[0], t))
     add_wrench(pair.wrench, f, combine(times(s, a), -data.radius, n))
     if mode == TANGENT:
-        add_sphere_tangent(0, s, data.radius, a, (n, l, t), sl, pair)
+        add_sphere_tangent(0, (s, data.radius, data.cos / distance), a, (n, l, t), sl, pair)
     elif mode >= REPORT:
         sums[NORMAL], sums[SLIDING], sums[RUBBED] = sl.N[0], sl.t2[0], friction_power((0, 1), sl)
         sums[STORED], sums[DAMPED] = stored_and_damped((0, 1), sl, data.normal[EXPONENT])

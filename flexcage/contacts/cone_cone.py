@@ -2,8 +2,8 @@
 
 Cones that share an apex touch along lines through it. Slices are spheres on both axes (``cone``),
 and those equally far along face each other: they press along the line between their centres, so
-that force and moment of momentum are kept to rounding, and forces are slopes of an energy. ``two`` is
-a ``roller_roller.TwoRollers``, whose radii are not read.
+that force and moment of momentum are kept to rounding, and forces are slopes of an energy. ``two``
+is a ``roller_roller.TwoRollers``, whose radii are not read.
 """
 
 from __future__ import annotations

@@ -160,7 +160,7 @@ def rolling(spec, speed):
 
 
 def test_cones_with_one_apex_roll_without_sliding():
-    """Nothing slides anywhere along the lines where hardly anything is pressed in."""
+    """Nothing slides anywhere along the lines under a light load."""
     case, bearing = tapered(**DRY, **LIGHT, **COULOMB, **{"load.radial": 0.0, "load.axial": "1 N"})
     y, _ = begun(case, bearing)
     spec, u = bearing.spec, bearing.layout.u(y)["elements"]
@@ -172,7 +172,7 @@ def test_cones_with_one_apex_roll_without_sliding():
     rolled = abs(turn) * 0.5 * spec.roller_diameter
     force = report.race[:, :, 0].sum()
     assert force > 1.0
-    assert abs(report.power[RACE_FRICTION]) < 1e-4 * 0.05 * force * rolled
+    assert abs(report.power[RACE_FRICTION]) < 1e-3 * 0.05 * force * rolled
 
 
 def test_the_rib_slides_and_loses_power_as_cones_have_it():
