@@ -161,7 +161,8 @@ def rolling(spec, speed):
 
 def test_cones_with_one_apex_roll_without_sliding():
     """Nothing slides anywhere along the lines under a light load."""
-    case, bearing = tapered(**DRY, **LIGHT, **COULOMB, **{"load.radial": 0.0, "load.axial": "1 N"})
+    changes = {"load.radial": 0.0, "load.axial": "300 N"}
+    case, bearing = tapered(**DRY, **LIGHT, **COULOMB, **changes)
     y, _ = begun(case, bearing)
     spec, u = bearing.spec, bearing.layout.u(y)["elements"]
     orbit, turn = rolling(spec, case.drive.speed)
