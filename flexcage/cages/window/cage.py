@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import mm, typeset
-from flexcage.geometry.cage import Cage, HeldElements, Objection, cages_of
+from flexcage.geometry.cage import CylindricalCage, HeldElements, Objection, cages_of
 
 _SHARPEST = 1e-4  # fillet, of the pocket's smaller side; smaller ones are lost in its mesh
 GUIDANCE = ("roller", "inner", "outer")
@@ -17,7 +17,7 @@ ROLLER_CAGES = cages_of("roller")
 
 
 @dataclass(frozen=True, kw_only=True)
-class WindowCage(Cage):
+class WindowCage(CylindricalCage):
     """A machined window cage: a hollow cylinder with one rectangular pocket per roller.
 
     Pocket walls are planes: the crossbeam faces parallel to the pocket's radial mid-plane at
