@@ -67,3 +67,10 @@ def in_pocket(
     """Coordinates (n, 3) [m] of points of the cage in a pocket's frame (s, n, t)."""
     middle = np.array([0.0, 0.5 * cage.pitch_diameter, 0.0])
     return (in_pocket_frame(points, pocket, pocket_count) - middle) @ pocket_axes(cage).T
+
+
+def in_cone(points: np.ndarray, cage: ConicalCage) -> np.ndarray:
+    """Places (n, 2) of points of the cage in its section, turned about the axis: along the wall and
+    across it [m]. In a pocket's middle plane they are s and n."""
+    x, above = points[:, 0], np.hypot(points[:, 1], points[:, 2]) - 0.5 * cage.pitch_diameter
+    return np.stack([x, above], axis=1) @ pocket_axes(cage)[:2, :2].T
