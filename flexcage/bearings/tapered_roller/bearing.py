@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 
 from flexcage.bearings.tapered_roller.frustum import Frustum
-from flexcage.cages.window.cage import WindowCage
+from flexcage.cages.conical.cage import ConicalCage
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import typeset
 from flexcage.geometry.bearing import Bearing, Spec, hollow_cylinder_inertia, type_name
@@ -48,7 +48,7 @@ class TaperedRollerBearing(OfRollers, Bearing):
     """
 
     kind: ClassVar[str] = "tapered roller bearing"
-    cage_spec: ClassVar[Spec] = WindowCage
+    cage_spec: ClassVar[Spec] = ConicalCage
     element: ClassVar[str] = "tapered roller"
     family: ClassVar[str] = "tapered_roller"
     places: ClassVar[tuple[str, ...]] = ("race", "rib")

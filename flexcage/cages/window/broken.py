@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from flexcage.cages.window.cage import WindowCage
 from flexcage.cages.window.defects import WindowDefect, find_repeated
+from flexcage.cages.window.windowed import WindowedCage
 from flexcage.core.spec import option
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.defect import CageLine, Finding, Mark, Reading, defect_type
@@ -34,21 +34,22 @@ class BrokenCrossbeam(WindowDefect):
     crossbeam: int = option(doc="crossbeam number, 0 .. Z-1", minimum=0)
 
     def extent(self, cage: Cage) -> float:
-        return 0.5 * (cage.outside_diameter - cage.bore)
+        assert isinstance(cage, WindowedCage)
+        return cage.wall
 
-    def displace(self, points: np.ndarray, cage: WindowCage, *, pocket_count: int) -> np.ndarray:
+    def displace(self, points: np.ndarray, cage: WindowedCage, *, pocket_count: int) -> np.ndarray:
         return np.zeros_like(points)
 
-    def opened(self, sound: CageMesh, mesh: CageMesh) -> CageMesh:
+    def opened(self, sound: CageMesh, mesh: CageMesh, cage: WindowedCage) -> CageMesh:
         from flexcage.cages.window.morph import break_crossbeam
 
-        return break_crossbeam(sound, mesh, self.crossbeam)
+        return break_crossbeam(sound, mesh, self.crossbeam, cage)
 
     def readings(self, mesh: Any, cage: Any, *, pitch_radius: float) -> Sequence[Reading]:
         """Height of the cut: that of the wall."""
         from flexcage.cages.window.morph import cut_height
 
-        return [Reading(self.type, self.extent(cage), [cut_height(mesh, self.crossbeam)])]
+        return [Reading(self.type, self.extent(cage), [cut_height(mesh, self.crossbeam, cage)])]
 
     @property
     def legend(self) -> Sequence[Mark]:
