@@ -237,6 +237,7 @@ def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) ->
         drop=drop,
         points=end_points(bearing, cage),
         half_roller=0.5 * bearing.roller_length,
+        middle=0.0,
         x0=st(interface.stations[:, 0]),
         dx=st(interface.stations[:, 1] - interface.stations[:, 0]),
         offset=st(interface.offset),
