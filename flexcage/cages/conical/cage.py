@@ -12,9 +12,13 @@ from dataclasses import dataclass
 from math import cos, hypot, pi, sin, tan
 from typing import Any, ClassVar, NamedTuple
 
+import numpy as np
+
+from flexcage.cages.window.windowed import WindowedCage
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import mm, typeset
-from flexcage.geometry.cage import Cage, HeldElements, Objection, cages_of
+from flexcage.geometry.bearing import Bearing
+from flexcage.geometry.cage import HeldElements, Objection, cages_of
 from flexcage.geometry.materials import MATERIALS, Material
 
 GUIDANCE = ("roller",)
@@ -33,7 +37,7 @@ class Section(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class ConicalCage(Cage):
+class ConicalCage(WindowedCage):
     """A conical window cage, pressed from sheet or moulded: two rims, and bars along the cone.
 
     Pocket walls are planes: the ends across the roller's axis, and the bars' faces, which approach
@@ -98,7 +102,7 @@ class ConicalCage(Cage):
         return 0.5 * self.pocket_width - s * self.taper - (n - self.offset) * tan(self.flank_angle)
 
     @property
-    def pocket_width(self) -> float:
+    def pocket_width(self) -> float:  # type: ignore[override]
         """Width of a pocket [m] halfway along it, in the middle of the wall."""
         return 0.5 * (self.pocket_width_small + self.pocket_width_large)
 
@@ -144,20 +148,60 @@ class ConicalCage(Cage):
         return 0.5 * self.material.density * wall * self.mean_radius
 
     @property
-    def fillet(self) -> float:
-        return self.fillet_radius
-
-    @property
-    def pocket_size(self) -> float:
-        return self.pocket_width
-
-    @property
     def pocket_reach(self) -> float:
         return float(self.axial(0.5 * self.pocket_length, abs(self.offset)))
 
     @property
     def has_land(self) -> bool:
         return False
+
+    @property
+    def wall(self) -> float:
+        return self.thickness
+
+    def rim_width(self, side: float) -> float:
+        return self.small_rim if side > 0.0 else self.large_rim
+
+    def end_width(self, side: float) -> float:
+        return self.pocket_width_small if side > 0.0 else self.pocket_width_large
+
+    @property
+    def face_normals(self) -> np.ndarray:
+        beam = np.array([self.taper, tan(self.flank_angle), 1.0])
+        beam, along = beam / np.linalg.norm(beam), np.array([1.0, 0.0, 0.0])
+        return np.stack([beam, beam * (1.0, 1.0, -1.0), along, -along])
+
+    @property
+    def axes(self) -> np.ndarray:
+        """Rows: axes s, n, t (3, 3) of a pocket's frame, in components (x, r, psi) there."""
+        c, s = cos(self.cone_angle), sin(self.cone_angle)
+        return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+    def in_pocket(self, points: np.ndarray, pocket: float, pocket_count: int) -> np.ndarray:
+        middle = np.array([0.0, 0.5 * self.pitch_diameter, 0.0])
+        return (super().in_pocket(points, pocket, pocket_count) - middle) @ self.axes.T
+
+    def pocket_frame(self, pocket: float, pocket_count: int) -> np.ndarray:
+        return self.axes @ super().pocket_frame(pocket, pocket_count)
+
+    def pocket_middle(self, pocket: float, pocket_count: int) -> np.ndarray:
+        place = np.array([self.axial(0.0, self.offset), self.mean_radius, 0.0])
+        return place @ super().pocket_frame(pocket, pocket_count)
+
+    def measured_at(self, pitch_radius: float) -> float:
+        return self.offset
+
+    def in_section(self, points: np.ndarray) -> np.ndarray:
+        """Places (n, 2) [m] of points of the cage in its section, turned about the axis: along the
+        wall and across it. In a pocket's middle plane they are s and n."""
+        above = np.hypot(points[:, 1], points[:, 2]) - 0.5 * self.pitch_diameter
+        return np.stack([points[:, 0], above], axis=1) @ self.axes[:2, :2].T
+
+    def along_crossbeams(self, points: np.ndarray) -> np.ndarray:
+        return self.in_section(points)[:, 0]
+
+    def heights(self, points: np.ndarray) -> np.ndarray:
+        return self.in_section(points)[:, 1]
 
     def bar_width(self, s: float, n: float, pocket_count: int) -> float:
         """Width [m] of a bar between the walls of its pockets at a place of their sections."""
@@ -232,6 +276,12 @@ class ConicalCage(Cage):
         n = min(max(foot, self.section.inside), self.section.outside)
         t = self.half_width(s, n)
         return n, t, hypot(n, t)
+
+    def clearances(self, bearing: Bearing) -> tuple[float, float]:
+        from flexcage.cages.conical.rollers import clearance_around
+
+        around = clearance_around(self, bearing.roller, 0.0)  # type: ignore[attr-defined]
+        return around, self.pocket_length - bearing.element_length
 
     def obstructions(self, bearing: HeldElements) -> Iterator[Objection]:
         from flexcage.cages.conical.rollers import obstructions

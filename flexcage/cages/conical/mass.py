@@ -7,7 +7,7 @@ fillets leave of a pocket's corners counts at the corners.
 
 from __future__ import annotations
 
-from math import atan, pi, tan
+from math import asin, cos, pi, tan
 from typing import NamedTuple
 
 import numpy as np
@@ -97,7 +97,8 @@ def _between_planes(
 
 def _corners(cage: ConicalCage) -> tuple[np.ndarray, np.ndarray]:
     """Places (4, 2), x and r, and volumes (4,) of what fillets leave in the corners."""
-    tilt, half, rho = atan(cage.taper), 0.5 * cage.pocket_length, cage.fillet_radius
+    half, rho = 0.5 * cage.pocket_length, cage.fillet_radius
+    tilt, high = asin(cage.face_normals[0, 0]), cage.thickness / cos(cage.flank_angle)
     places, volumes = [], []
     for sign in (-1.0, 1.0):
         inner = 0.5 * pi + sign * tilt  # angle between the faces, blunt at the small end
@@ -106,7 +107,7 @@ def _corners(cage: ConicalCage) -> tuple[np.ndarray, np.ndarray]:
         t = cage.half_width(s, cage.offset) - _DEPTH * rho
         r = np.hypot(cage.radius(s, cage.offset), t)
         places += 2 * [(cage.axial(s, cage.offset), r)]
-        volumes += 2 * [area * cage.thickness]
+        volumes += 2 * [area * high]
     return np.array(places), np.array(volumes)
 
 

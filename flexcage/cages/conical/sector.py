@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from flexcage.cages.conical.cage import ConicalCage
-from flexcage.cages.conical.walls import in_cone, in_pocket, pocket_walls
+from flexcage.cages.conical.walls import pocket_walls
 from flexcage.core.errors import RunFailed
 from flexcage.mesh.gmsh_session import gmsh_model
 from flexcage.mesh.options import MeshOptions
@@ -153,9 +153,9 @@ def _set_sizes(gmsh: Any, plan: SizePlan, fillets: list[int]) -> None:
 def _surface_name(points: np.ndarray, cage: ConicalCage, pocket_count: int) -> str:
     """Which surface of the half sector all these points lie on; fillets lie on no other."""
     at, walls = cage.section, pocket_walls(cage)
-    a, b = in_cone(points, cage).T
+    a, b = cage.in_section(points).T
     azimuth = np.arctan2(points[:, 2], points[:, 1])
-    local = in_pocket(points, 0, pocket_count, cage)
+    local = cage.in_pocket(points, 0, pocket_count)
     ring = (
         points[:, 2], cage.mean_radius * (azimuth - pi / pocket_count), b - at.inside,
         b - at.outside, a - at.small, a - at.large,

@@ -56,14 +56,17 @@ class BrokenCrossbeam(WindowDefect):
         return (Mark("line", "crack", "break through the crossbeam"),)
 
     def lines(self, points: np.ndarray, count: int) -> list[CageLine]:
-        """Across the crossbeam, on the outside."""
-        own = np.abs(points[:, 0]) < 1e-6 * np.ptp(points[:, 0])
-        _, radial, tangential = in_pocket_frame(points[own], self.place, count).T
-        turn = np.arctan2(tangential, radial)
+        """Across the crossbeam, on the outside: there its ends have vertices of one place."""
+        placed, times = np.unique(points, axis=0, return_counts=True)
+        x, radial, tangential = in_pocket_frame(placed[times > 1], self.place, count).T
+        turn, r = np.arctan2(tangential, radial), np.hypot(radial, tangential)
         near = np.abs(turn) < pi / count
-        r = np.hypot(radial, tangential)[near].max()
+        outside = near & (r > (1.0 - 1e-6) * r[near].max(initial=0.0))
+        if not outside.any():
+            return []
         a = 2.0 * pi * self.place / count + np.linspace(turn[near].min(), turn[near].max(), 9)
-        line = r * np.stack([0.0 * a, np.cos(a), np.sin(a)], axis=1)
+        middle, high = x[outside].mean(), r[outside].mean()
+        line = np.stack([middle + 0.0 * a, high * np.cos(a), high * np.sin(a)], axis=1)
         return [CageLine(line, line[4])]
 
     @property

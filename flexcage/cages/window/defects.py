@@ -1,10 +1,11 @@
 """Defects of window cages: beams displaced, and what all defects of such cages must tell.
 
-Crossbeam k is translated along its own tangent by -delta_q g / cos(pi/Z): the component along
-the tangent of either neighbouring pocket, to which the pocket walls are normal, is delta_q g
-exactly, so both walls stay parallel to themselves, the beam keeps its width and its radius, and
-a section that only translates keeps its volume. g is the defect's shape over the pocket's length;
-a shifted beam is blended to zero over the neighbouring half pockets and towards the end faces.
+Crossbeam k is translated along its own tangent by -delta_q g / cos(pi/Z), of walls that slope
+against the radius by as much more or less as the width then changes by delta_q: the component along
+the tangent of either neighbouring pocket is delta_q g exactly, so both walls stay parallel to
+themselves, the beam keeps its width and its radius, and a section that only translates keeps its
+volume. g is the defect's shape over the pocket's length; a shifted beam is blended to zero over the
+neighbouring half pockets and towards the end faces.
 
 A side beam moves along x, in a cone along the roller's axis, by +-delta_p times its shape over the
 pocket's width, the whole section together with its end face: it keeps its width, as a bent beam
@@ -162,7 +163,8 @@ class CrossbeamDefect(WindowDefect):
         field = near * self._field(points, cage, pocket_count)
         angle = 2.0 * half * self.place
         tangent = np.array([0.0, -sin(angle), cos(angle)])
-        return np.multiply.outer(-self.displacement / cos(half) * field, tangent)
+        share = _moved_face(cage, pocket_count)
+        return np.multiply.outer(-self.displacement / share * field, tangent)
 
     def _field(self, points: np.ndarray, cage: WindowedCage, pocket_count: int) -> np.ndarray:
         """Share (n,) of the displacement near the crossbeam: 1 at the middle of its faces."""
@@ -284,6 +286,14 @@ class SideBeamDefect(WindowDefect):
         return find_repeated(
             f"The side beam {d.side} of pocket {d.pocket} is displaced" for d in own
         )
+
+
+def _moved_face(cage: WindowedCage, pocket_count: int) -> float:
+    """How much wider a pocket becomes, measured around, when a crossbeam moves along its own
+    tangent: by cos(pi/Z) where its faces lie along the radius."""
+    normal = cage.face_normals[0]
+    tangent = around(0.5, pocket_count)
+    return float(normal @ cage.pocket_frame(0.0, pocket_count) @ tangent / normal[2])
 
 
 def clamped_beam(s: np.ndarray, length: float) -> np.ndarray:

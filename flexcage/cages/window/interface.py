@@ -171,7 +171,8 @@ def _residual_at_stations(
     return at_stations, compliance
 
 
-def _reduced(cage: CageReduction) -> CageInterface:
+def reduced_interface(cage: CageReduction) -> CageInterface:
+    """Interface of a reduced cage with windows."""
     return cage_interface(
         cage.model,
         cage.basis,
@@ -191,5 +192,5 @@ def _depends_on(
 
 
 WINDOW_INTERFACES: Interfaces[WindowCage] = Interfaces(
-    kind=CageInterface, rigid=rigid_interface, reduced=_reduced, depends_on=_depends_on
+    kind=CageInterface, rigid=rigid_interface, reduced=reduced_interface, depends_on=_depends_on
 )
