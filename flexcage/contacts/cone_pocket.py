@@ -31,9 +31,12 @@ class FaceFrames(NamedTuple):
     taper: float  # sine of the roller's half angle
 
 
-ConePocketWork: Any = namedtuple(  # with P (3, 3): rows: pocket axes x, r, psi in F
-    "ConePocketWork", (*PocketWork._fields, "P"), module=__name__
-)
+def _with_axes(name: str) -> Any:
+    """``PocketWork`` with P (3, 3), rows: pocket axes x, r, psi in F."""
+    return namedtuple(name, (*PocketWork._fields, "P"), module=__name__)
+
+
+ConePocketWork = _with_axes("ConePocketWork")
 
 
 def cone_pocket_work(n_slices: int, n_points: int, n_stations: int, n_modes: int) -> Any:
@@ -52,7 +55,7 @@ def set_pocket_axes(azimuth, A, F, pw):
 
 
 @part
-def _set_face(frames, f, pw):
+def set_face(frames, f, pw):
     """The axes of face f, in F, into ``pw.G``."""
     for k in range(3):
         axis = times(frames.axes[f, k, 0], row(pw.P, 0))
@@ -69,7 +72,7 @@ def _penetrations(pose, data, frames, i, whole, centre, q, margin, pw):
     reach = max(abs(data.s[0]), abs(data.s[data.s.shape[0] - 1]))
     touch = False
     for f in range(FACES):
-        _set_face(frames, f, pw)
+        set_face(frames, f, pw)
         G0, G2 = row(pw.G, 0), row(pw.G, 2)
         X, T = dot(G0, D), dot(G2, D)
         ax = (dot(G0, a0), dot(G0, a1), dot(G0, a2))
@@ -122,7 +125,7 @@ def cone_pocket_contact(i, roller, cage, data, frames, laws, sl, pw, pair, mode,
     for f in range(FACES):
         if pw.near[f] != 0 and press_face(data, f, sl, pw):
             any_contact = True
-            _set_face(frames, f, pw)
+            set_face(frames, f, pw)
             place, motion = (pose, whole, centre[1]), (rel, spin, qd, onset[f])
             face_forces(i, f, place, motion, data, laws, (sl, pw), pair, mode, sums)
     if mode == TANGENT and any_contact:

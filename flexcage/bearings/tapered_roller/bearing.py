@@ -133,6 +133,11 @@ class TaperedRollerBearing(OfRollers, Bearing):
         return Frustum(0.5 * self.roller_diameter, self.roller_length, self.half_angle)
 
     @property
+    def sphere_at_centre(self) -> float:
+        """Radius [m] of the sphere about a roller's centre of mass that its cone touches."""
+        return self.roller.radius(self.roller.centre) * cos(self.half_angle)
+
+    @property
     def element_mass(self) -> float:
         """Of a roller with flat ends [kg]."""
         return self.rolling_material.density * self.roller.volume

@@ -2,24 +2,28 @@
 
 from __future__ import annotations
 
-from math import cos, sin, tan
+from math import cos, sin
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from flexcage.bearings.cylindrical_roller.model import SpottedRollers
 from flexcage.bearings.tapered_roller.bearing import TaperedRollerBearing
+from flexcage.bearings.tapered_roller.frustum import spheres
+from flexcage.bearings.tapered_roller.pocket_data import cone_pocket_data, face_frames, no_frames
 from flexcage.bodies.floating_frame import BodyData, no_body
+from flexcage.cages.conical.cage import ConicalCage
 from flexcage.contacts import laws
 from flexcage.contacts.cone import ConeSide, EndData
 from flexcage.contacts.cone_cone import ConeConeContact
+from flexcage.contacts.cone_pocket import FaceFrames, cone_pocket_work
 from flexcage.contacts.land import LandData, no_land
-from flexcage.contacts.pocket_wall import PocketData, no_pockets, pocket_work
+from flexcage.contacts.pocket_wall import PocketData, no_pockets
 from flexcage.contacts.race import race_work
 from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT
 from flexcage.geometry.rollers import LINE_EXPONENT
-from flexcage.system.bodies import bodies_of, inner_ring_of, outer_ring_of
+from flexcage.system.bodies import bodies_of, inner_ring_of, outer_ring_of, unbalanced
 from flexcage.system.data import Bodies, RingBody, Work, new_work
 from flexcage.system.layout import Layout
 from flexcage.system.spec import Drive, Load, Mount
@@ -42,16 +46,7 @@ class TaperedModel(NamedTuple):
     neighbours: ConeConeContact
     spot: SpottedRollers
     land: LandData
-
-
-def spheres(b: TaperedRollerBearing, slices: int) -> tuple[np.ndarray, np.ndarray]:
-    """Spheres of which the surface of a roller is the envelope: places (n,) of their centres on its
-    axis from its centre of mass, and radii (n,) less the profile's drop [m]. They touch the surface
-    in the middles of slices of the static solution."""
-    x, drop = b.profile.slices(slices, diameter=b.roller_diameter, length=b.effective_length)
-    radius = 0.5 * b.roller_diameter - x * tan(b.half_angle)
-    place = x - radius * tan(b.half_angle) - b.roller.centre
-    return place, radius / cos(b.half_angle) - drop
+    frames: FaceFrames
 
 
 def _side(
@@ -70,7 +65,7 @@ def _side(
         radius=radius,
         s=s,
         reach=reach,
-        whole=(own - b.roller.centre * tan(b.half_angle)) * cos(b.half_angle),
+        whole=b.sphere_at_centre,
         taper=sin(b.half_angle),
         own=own,
         middle=-b.roller.centre,
@@ -111,8 +106,8 @@ def _neighbours(b: TaperedRollerBearing, contacts: Contacts) -> ConeConeContact:
 
 
 def build_tapered_model(
-    bearing: TaperedRollerBearing, cage: Any, body: Any, interface: Any, *, contacts: Contacts,
-    lubricant: Lubricant, drive: Drive, load: Load, mount: Mount, seed: int = 0,
+    bearing: TaperedRollerBearing, cage: ConicalCage | None, body: Any, interface: Any, *,
+    contacts: Contacts, lubricant: Lubricant, drive: Drive, load: Load, mount: Mount, seed: int = 0,
 ) -> TaperedModel:  # fmt: skip
     """Arrays of a tapered roller bearing for the kernels; arguments as those of
     ``system.motion.BuildModel``."""
@@ -125,14 +120,18 @@ def build_tapered_model(
         ),
         inner_ring=inner_ring_of(bearing, drive, load, free_axially=load.frees_axially(bearing)),
         outer_ring=outer_ring_of(bearing, mount),
-        cage=no_body().data,
+        cage=unbalanced(body, cage).data if cage else no_body().data,
         inner=_side(bearing, contacts, lubricant, inner=True),
         outer=_side(bearing, contacts, lubricant, inner=False),
         end=_end(bearing, contacts),
-        pocket=no_pockets(count, 0.5 * bearing.roller_length),
+        pocket=(
+            cone_pocket_data(bearing, cage, contacts, interface) if cage
+            else no_pockets(count, 0.5 * bearing.roller_length)
+        ),
         neighbours=_neighbours(bearing, contacts),
         spot=SpottedRollers(np.zeros(count, np.int64), 0.0),
         land=no_land(),
+        frames=face_frames(bearing, cage) if cage else no_frames(),
     )  # fmt: skip
 
 
@@ -141,8 +140,9 @@ def tapered_work(model: TaperedModel, layout: Layout) -> Work:
     slices, points, stations = (
         len(model.pocket.s), len(model.pocket.points), model.pocket.phi.shape[2]
     )  # fmt: skip
+    work = cone_pocket_work(slices, points, stations, layout.modes)
     return new_work(
-        layout, race_work(len(model.inner.s)), pocket_work(slices, points, stations, layout.modes),
-        slices=slices, points=points, faces=4 if layout.has_cage else 1, stations=stations,
-        ribs=2, land_stations=len(model.land.angle), turns=(Q_SPIN, Q_SKEW, Q_TILT),
+        layout, race_work(len(model.inner.s)), work, slices=slices, points=points,
+        faces=4 if layout.has_cage else 1, stations=stations, ribs=2,
+        land_stations=len(model.land.angle), turns=(Q_SPIN, Q_SKEW, Q_TILT),
     )  # fmt: skip

@@ -11,24 +11,26 @@ from flexcage.bearings.tapered_roller.model import (
     tapered_work,
 )
 from flexcage.bearings.tapered_roller.neighbours import touch_next
+from flexcage.bearings.tapered_roller.pockets import cone_pockets
 from flexcage.bearings.tapered_roller.residual import evaluate
 from flexcage.bearings.tapered_roller.start import tapered_start
+from flexcage.modes.basis import FACES
 from flexcage.system.equations import shared_equations
 from flexcage.system.motion import Motion, parts_type
 
 TaperedParts = parts_type("TaperedParts", TaperedModel, __name__)
 
 _WEIGHTS: Any = roller_weights
-_UNCAGED = (touch_next, shared_equations), ("next roller",)
 MOTION = Motion(
     build_model=build_tapered_model,
     parts=TaperedParts,
     new_work=tapered_work,
     evaluate=evaluate,
-    separate=_UNCAGED[0],
-    faces=_UNCAGED[1],
-    uncaged=_UNCAGED,
+    separate=(cone_pockets, shared_equations),
+    faces=FACES,
+    uncaged=((touch_next, shared_equations), ("next roller",)),
     ribs=("small end", "large rib"),
     start=tapered_start,
     error_weights=_WEIGHTS,
+    implicit_share=1.0,
 )

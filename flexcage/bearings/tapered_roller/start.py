@@ -2,7 +2,8 @@
 
 The static solution places ring and rollers without friction, centrifugal forces and gyroscopic
 moments included; rollers that bear nothing on the inner race lie on the outer one and on the rib.
-All orbit and turn as cones with one apex do in pure rolling.
+All orbit and turn as cones with one apex do in pure rolling; the cage goes round with them, its
+pockets' middles where the rollers' are, and its modes where rotation holds them.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from flexcage.contacts.laws import STIFFNESS
 from flexcage.system.begun import Advance, Start, StaticStart
 from flexcage.system.layout import Layout
 from flexcage.system.problem import BearingSystem
+from flexcage.system.start import strained_by_rotation
 from flexcage.system.statics.equilibrium import Problem, nearest, settle
 from flexcage.system.statics.solution import StaticSolution
 
@@ -30,7 +32,11 @@ def tapered_start(
     assert isinstance(bearing.spec, TaperedRollerBearing)
     solution, spec = statics(), bearing.spec
     y = placed(bearing, spec, solution)
-    yd = rolling_cones(bearing.data.model, bearing.layout, spec, y)
+    model, layout = bearing.data.model, bearing.layout
+    yd = rolling_cones(model, layout, spec, y)
+    if layout.modes:
+        spin = float(layout.u(y)["omega"][0])
+        layout.q(y)["modes"][:] = strained_by_rotation(model.cage, spin)
     station = np.zeros_like(bearing.data.work.report.station)
     return Start(y, yd, (), 0.0, solution.unbalanced, station, solution.warnings)
 
@@ -70,6 +76,8 @@ def placed(
     q["elements"][:, 1] = r + spec.roller.centre * np.sin(tilt)
     q["elements"][:, 2], q["elements"][:, 4] = 2.0 * pi * np.arange(len(psi)) / len(psi), tilt
     q["inner"][:5], q["outer"][:5] = solution.displacement, solution.outer
+    if layout.has_cage:
+        q["cage"][0], q["quaternion"][0] = x.mean(), 1.0
     return y
 
 
@@ -79,7 +87,7 @@ def rolling_cones(
     """Set velocities in y: rollers that orbit and turn about their axes as in pure rolling; returns
     y' (accelerations zero)."""
     yd = np.zeros_like(y)
-    q, u, qd = layout.q(y)["elements"], layout.u(y), layout.q(yd)
+    q, u, qd = layout.q(y)["elements"], layout.u(y), layout.q(yd)["elements"]
     speed = float(np.interp(0.0, *model.bodies.speed))
     rolling = rolling_at(spec, speed)
     orbit, turn = rolling.cage_speed, rolling.element_spin_in_cage
@@ -88,6 +96,8 @@ def rolling_cones(
     u["elements"][:, 3] = turn + orbit * np.cos(skew) * np.cos(tilt)
     u["elements"][:, 4] = -orbit * np.cos(skew) * np.sin(tilt)  # they keep skew and tilt
     u["elements"][:, 5] = orbit * np.sin(skew)
-    qd["elements"][:, 2], qd["elements"][:, 5] = orbit, turn
-    u["inner"][3] = qd["inner"][5] = speed
+    qd[:, 2], qd[:, 5] = orbit, turn
+    u["inner"][3] = layout.q(yd)["inner"][5] = speed
+    if layout.has_cage:
+        u["omega"][0], layout.q(yd)["quaternion"][1] = orbit, 0.5 * orbit
     return yd

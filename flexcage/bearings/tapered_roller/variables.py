@@ -10,12 +10,7 @@ from dataclasses import replace
 
 from flexcage.bearings.cylindrical_roller.variables import VARIABLES as OF_ROLLERS
 
-_TAKEN = ("element_quaternion", "element_tilt", "race_moment", "rib_force")
-
 VARIABLES = replace(
     OF_ROLLERS,
-    variables=tuple(v for v in OF_ROLLERS.variables if v.name in _TAKEN),
-    labels={name: OF_ROLLERS.labels[name] for name in ("tilt", "moment", "rib")},
-    counted=(),
-    sizes={},
+    variables=tuple(v for v in OF_ROLLERS.variables if v.name != "counter_rib_force"),
 )
