@@ -11,13 +11,13 @@ import scipy.sparse as sp
 
 from flexcage.core.errors import InputError
 from flexcage.fem.model import FEModel
+from flexcage.mesh.cage_mesh import FACE_AXES
 from flexcage.modes.basis import FACES
 
 # of the residual vectors by modes.attachments; an interface has room for all of them
 LOADS = {"linear": 2 * len(FACES), "quadratic": 3 * len(FACES)}
 LOADS_PER_POCKET = LOADS["quadratic"]
 # outward normals, away from the pocket's centre, in its frame (x, r, psi)
-_FACE_AXES = "face_axes"  # of a mesh's ``info``
 NORMALS = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]])
 
 
@@ -55,12 +55,12 @@ STRAIGHT = FaceAxes(NORMALS, np.eye(3)[[0, 0, 2, 2]], np.zeros(4))
 def with_face_axes(info: Mapping[str, object], axes: FaceAxes) -> Mapping[str, object]:
     """A mesh's ``info`` that says how its pockets' faces lie, where they are not ``STRAIGHT``."""
     rows = np.column_stack([*axes[:2], axes.start])
-    return MappingProxyType({**info, _FACE_AXES: tuple(tuple(map(float, row)) for row in rows)})
+    return MappingProxyType({**info, FACE_AXES: tuple(tuple(map(float, row)) for row in rows)})
 
 
 def face_axes(model: FEModel) -> FaceAxes:
     """How the faces of a model's pockets lie."""
-    rows = model.info.get(_FACE_AXES)
+    rows = model.info.get(FACE_AXES)
     if rows is None:
         return STRAIGHT
     table = np.array(rows, float)

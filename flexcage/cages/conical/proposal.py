@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import asin, cos, tan
+from math import asin, cos, degrees, radians, tan
 from typing import Any
 
 from flexcage.cages.conical.cage import ConicalCage
@@ -18,7 +18,7 @@ def propose_conical_cage(bearing: Any) -> ProposedCage:
     """Bars lie outside the rollers' axes, where there is room between rollers, and bear on them
     with flanks that touch in the middle of the wall."""
     diameter, length = bearing.element_diameter, bearing.element_length
-    offset, flank = rounded(_OFFSET * diameter, _STEP), asin(2.0 * _OFFSET)
+    offset, flank = rounded(_OFFSET * diameter, _STEP), radians(round(degrees(asin(2.0 * _OFFSET))))
     pocket = rounded((1.0 + _ALONG) * length, _STEP)
     small, large = (
         _width(bearing, offset, flank, s) for s in (0.5 * pocket, -0.5 * pocket)
