@@ -119,6 +119,10 @@ class Cage:
         """Width [m] of a pocket around the cage; NaN where its type does not say."""
         return nan
 
+    def pocket_clearance(self, bearing: HeldElements) -> float:
+        """Clearance [m] of an element in its pocket around the cage; NaN likewise."""
+        return self.pocket_size - bearing.element_diameter
+
     @property
     def pocket_reach(self) -> float:
         """How far [m] a pocket reaches to both sides along the axis."""

@@ -1,4 +1,4 @@
-"""Tapered rollers in the pockets of a conical cage: slopes of one energy, balance, Newton's matrix."""
+"""Tapered rollers in pockets of a conical cage: slopes of one energy, balance, Newton's matrix."""
 
 from __future__ import annotations
 

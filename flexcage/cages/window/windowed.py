@@ -8,7 +8,7 @@ azimuth. Defects, measures and contact stations are written in it.
 from __future__ import annotations
 
 from math import cos, pi, sin
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -88,6 +88,9 @@ class WindowedCage(Cage):
         """Places (n,) [m] of points across the wall, outwards."""
         heights: np.ndarray = np.hypot(points[:, 1], points[:, 2])
         return heights
+
+    def pocket_clearance(self, bearing: Any) -> float:
+        return self.clearances(bearing)[0]
 
     def clearances(self, bearing: Bearing) -> tuple[float, float]:
         """Clearance [m] of a roller in its pocket, around the cage and along the roller."""
