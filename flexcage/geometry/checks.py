@@ -45,7 +45,7 @@ def check_fit(bearing: Bearing, cage: Cage, around: Iterator[Finding]) -> None:
     ``around``: what leaves it no place."""
     raise_first(around)
     raise_first(
-        (f"cage.{name}", f"cage.{name} is {describe(getattr(cage, name), 'mm')}, {what}.")
+        (f"cage.{name}", f"cage.{name} is {cage.described(name)}, {what}.")
         for name, what in cage.obstructions(bearing)
     )
     raise_first(_find_in_unbalance(cage))

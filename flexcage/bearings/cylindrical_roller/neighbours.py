@@ -65,7 +65,7 @@ def touch_next(t, y, yd, d, law, out, mode):
 
 
 @part
-def _pair(i, j, q, d):
+def pair_of(i, j, q, d):
     """Rollers i and j in the frame of i, and how far j is ahead [rad]; roller 0 is next to the last
     one."""
     radius, poses = fields(d.bodies).radius, fields(d.scratch).poses
@@ -90,7 +90,7 @@ def _touch(i, j, q, d, law, mode):
         fields(d.report),
         fields(d.scratch),
     )
-    two, ahead = _pair(i, j, q, d)
+    two, ahead = pair_of(i, j, q, d)
     depth, speed = approach_of(two, data, sl)
     if mode >= REPORT:
         rep.approach[i, NEXT_ROLLER], rep.pocket_normal[i, 0] = speed, 0.0

@@ -51,14 +51,14 @@ def _variables(bearing: BearingSystem, y: np.ndarray) -> dict[str, np.ndarray]:
         "race_traction": s.race[:n, :, :, 1],
         "race_moment": s.race[:n, :, :, [3, 2]],
         "race_slip": s.race[:n, :, :, 4],
-        **(_in_pockets(bearing, n) if bearing.layout.has_cage else _neighbour_forces(bearing, n)),
+        **(in_pockets(bearing, n) if bearing.layout.has_cage else neighbour_forces(bearing, n)),
         "rib_force": s.rib[:n, :, :2],
         "counter_rib_force": s.rib[:n, :, 2:] if s.rib.shape[2] > 2 else np.zeros_like(s.rib[:n]),
         **_spots(bearing.data.model, q),
     }
 
 
-def _in_pockets(bearing: BearingSystem, n: int) -> dict[str, np.ndarray]:
+def in_pockets(bearing: BearingSystem, n: int) -> dict[str, np.ndarray]:
     s, root = bearing.data.samples, bearing.data.model.pocket.root
     return {
         "pocket_slice_force": s.slice_normal[:n],
@@ -69,7 +69,7 @@ def _in_pockets(bearing: BearingSystem, n: int) -> dict[str, np.ndarray]:
     }
 
 
-def _neighbour_forces(bearing: BearingSystem, n: int) -> dict[str, np.ndarray]:
+def neighbour_forces(bearing: BearingSystem, n: int) -> dict[str, np.ndarray]:
     """Of rollers without a cage: next ones stand for walls of pockets (``Motion.uncaged``)."""
     return {"neighbour_force": bearing.data.samples.pocket_normal[:n, :, 0]}
 

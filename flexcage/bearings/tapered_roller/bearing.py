@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 
 from flexcage.bearings.tapered_roller.frustum import Frustum
-from flexcage.cages.window.cage import WindowCage
+from flexcage.cages.conical.cage import ConicalCage
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import typeset
 from flexcage.geometry.bearing import Bearing, Spec, hollow_cylinder_inertia, type_name
@@ -48,7 +48,7 @@ class TaperedRollerBearing(OfRollers, Bearing):
     """
 
     kind: ClassVar[str] = "tapered roller bearing"
-    cage_spec: ClassVar[Spec] = WindowCage
+    cage_spec: ClassVar[Spec] = ConicalCage
     element: ClassVar[str] = "tapered roller"
     family: ClassVar[str] = "tapered_roller"
     places: ClassVar[tuple[str, ...]] = ("race", "rib")
@@ -131,6 +131,11 @@ class TaperedRollerBearing(OfRollers, Bearing):
     @cached_property
     def roller(self) -> Frustum:
         return Frustum(0.5 * self.roller_diameter, self.roller_length, self.half_angle)
+
+    @property
+    def sphere_at_centre(self) -> float:
+        """Radius [m] of the sphere about a roller's centre of mass that its cone touches."""
+        return self.roller.radius(self.roller.centre) * cos(self.half_angle)
 
     @property
     def element_mass(self) -> float:

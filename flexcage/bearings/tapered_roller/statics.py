@@ -51,12 +51,12 @@ def rollers_of(
         bearing=bearing,
         meeting=meeting(bearing, n),
         stiffness=np.array([on_race] * 2 * n + [on_rib]),
-        rolling=_rolling(bearing, speed, options.cage_speed),
+        rolling=rolling_at(bearing, speed, options.cage_speed),
         rating=options.dynamic_rating or bearing.dynamic_rating,
     )
 
 
-def _rolling(b: TaperedRollerBearing, speed: float, cage: float | None) -> Kinematics:
+def rolling_at(b: TaperedRollerBearing, speed: float, cage: float | None = None) -> Kinematics:
     """Speeds of pure rolling; at a cage speed [rad/s] that is prescribed, those of the inner ring's
     speed that makes it."""
     angle, ratio = b.nominal_contact_angle, b.roller_diameter / b.pitch_diameter
