@@ -1,4 +1,4 @@
-"""The static solution of spherical roller bearings: closed forms, and the solvers of ``barrels``."""
+"""The static solution of spherical roller bearings: closed forms, and solvers in ``barrels``."""
 
 from dataclasses import replace
 from math import cos, pi, sin, sqrt, tan
