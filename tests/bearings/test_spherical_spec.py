@@ -96,9 +96,9 @@ def test_makers_print_the_standards_factors(angle, limit, below, beyond):
          "but the sphere of the outer ring has a radius of 36.5"),
         ({"inner_groove_radius": 35.8 * MM}, "but the inner groove has a radius of 35.8 mm, so"),
         ({"roller_count": 18}, "18 barrels of 10.7 mm a row overlap .* at most 17 fit"),
-        ({"roller_length": 10 * MM}, "meet those of the other row, whose middles are 11.4278 mm off"),
+        ({"roller_length": 10 * MM}, "of the other row, whose middles are 11.4278 mm off"),
         ({"width": 20 * MM}, "out of a bearing 20 mm wide; give a width of 21"),
-        ({"bore": 50 * MM}, "but the inner race is 49.7624 mm in diameter at the barrels' outer ends"),
+        ({"bore": 50 * MM}, "inner race is 49.7624 mm in diameter at the barrels' outer ends"),
         ({"outside_diameter": 73 * MM}, "the outer race's sphere is 73.1249 mm in dia"),
     ],
 )  # fmt: skip
