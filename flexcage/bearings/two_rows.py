@@ -19,6 +19,7 @@ from flexcage.geometry.checks import Finding, raise_first
 
 if TYPE_CHECKING:
     from flexcage.contacts.spec import Contacts
+    from flexcage.system.statics.elements import Elements
     from flexcage.system.statics.options import StaticOptions
     from flexcage.system.statics.rows import Rows
 
@@ -83,12 +84,17 @@ def single(bearing: Bearing, kind: type[Bearing], **changes: Any) -> Any:
 def rows_of(bearing: Any, *, speed: float, contacts: Contacts, options: StaticOptions) -> Rows:
     """Elements of both rows; a row has its share of the dynamic rating."""
     from flexcage.bearings.family import statics_of
-    from flexcage.system.statics.rows import Row, Rows
 
     row = bearing.row
     rating = (options.dynamic_rating or bearing.dynamic_rating) / ROWS**bearing.row_power
     own = replace(options, dynamic_rating=rating)
-    elements = statics_of(row)(row, speed=speed, contacts=contacts, options=own)
+    return rows_from(bearing, statics_of(row)(row, speed=speed, contacts=contacts, options=own))
+
+
+def rows_from(bearing: Any, elements: Elements) -> Rows:
+    """Both rows of a bearing, from the elements of one."""
+    from flexcage.system.statics.rows import Row, Rows
+
     rows = tuple(
         Row(elements, p.place, sense=p.sense, late=bearing.late, turned=p.turned)
         for p in bearing.row_places

@@ -247,7 +247,7 @@ def _text(
     name, bearing = case_name(outline), chosen.bearing
     head = [f"# {in_one_line(line)}" for line in _findings(outline, source, chosen, candidates)]
     given = _reasons_of_outline(outline)
-    load = "axial" if outline.contact_angle else "radial"
+    load = "axial" if outline.contact_angle and not bearing.aligns_itself else "radial"
     runs = in_motion(type(bearing))
     caged = proposed is not None or not runs
     speed = _speed(bearing.pitch_diameter, caged=caged)

@@ -106,6 +106,7 @@ class Bearing:
     sliced: ClassVar[tuple[str, ...]] = ("race", "pocket")  # those cut in slices or strips
     endurance: ClassVar[Endurance | None] = None  # constants of its modified life, ISO 281
     carries_axial_load: ClassVar[bool] = False  # in a run, with the ring free axially and in tilt
+    aligns_itself: ClassVar[bool] = False  # does its inner ring tilt freely?
     elsewhere: ClassVar[Mapping[str, str]] = {}  # patterns of keys that it has not: what there is
 
     type: str = type_name("cylindrical_roller")

@@ -24,6 +24,7 @@ TESTED = {
     "ex10_signals",
     "ex11_diagnosis",
     "ex12_tapered",
+    "ex13_spherical",
 }
 
 
@@ -60,6 +61,13 @@ def test_tapered_example(capsys):
     assert still == pytest.approx(module.wedge()) and fast > 1.1 * still
     assert module.loaded() == 15
     assert "the rib bears" in capsys.readouterr().out
+
+
+def test_spherical_example(capsys):
+    module = example("ex13_spherical")
+    both, few = module.main(0.0, module.limit())
+    assert both == pytest.approx(0.5, abs=0.01) and few < 0.02
+    assert "the row at -x bears" in capsys.readouterr().out
 
 
 def test_static(capsys):

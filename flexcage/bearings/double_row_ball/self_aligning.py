@@ -36,6 +36,7 @@ class SelfAligningBallBearing(RowFields, BallBearing):
     row_power: ClassVar[float] = POWER
     weibull: ClassVar[float] = WEIBULL
     carries: ClassVar[tuple[bool, ...]] = (True, True, True, False, False)
+    aligns_itself: ClassVar[bool] = True
     pressure_limit: ClassVar[float] = 4.6e9
 
     type: str = type_name("self_aligning_ball")

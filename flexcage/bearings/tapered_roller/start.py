@@ -14,13 +14,14 @@ import numpy as np
 
 from flexcage.bearings.tapered_roller.bearing import TaperedRollerBearing
 from flexcage.bearings.tapered_roller.model import TaperedModel
-from flexcage.bearings.tapered_roller.statics import TaperedRollers, meeting, rolling_at
+from flexcage.bearings.tapered_roller.statics import TaperedRollers, meeting
 from flexcage.contacts.laws import STIFFNESS
 from flexcage.system.begun import Advance, Start, StaticStart
 from flexcage.system.layout import Layout
 from flexcage.system.problem import BearingSystem
 from flexcage.system.start import strained_by_rotation
 from flexcage.system.statics.equilibrium import Problem, nearest, settle
+from flexcage.system.statics.slices import rolling_of
 from flexcage.system.statics.solution import StaticSolution
 
 
@@ -50,7 +51,7 @@ def settled_rollers(
     rollers = TaperedRollers(
         bearing=spec, meeting=meeting(spec, n),
         stiffness=np.array([*np.repeat(stiffness, n), model.end.normal[STIFFNESS]]),
-        rolling=rolling_at(spec, solution.speed), rating=spec.dynamic_rating,
+        rolling=rolling_of(spec, solution.speed, None), rating=spec.dynamic_rating,
     )  # fmt: skip
     problem = Problem(rollers, solution.load, np.zeros(5, bool), v, np.zeros(5))
     at = problem.at_azimuths @ v
@@ -89,7 +90,7 @@ def rolling_cones(
     yd = np.zeros_like(y)
     q, u, qd = layout.q(y)["elements"], layout.u(y), layout.q(yd)["elements"]
     speed = float(np.interp(0.0, *model.bodies.speed))
-    rolling = rolling_at(spec, speed)
+    rolling = rolling_of(spec, speed, None)
     orbit, turn = rolling.cage_speed, rolling.element_spin_in_cage
     skew, tilt = q[:, 3], q[:, 4]
     u["elements"][:, 2] = q[:, 1] * orbit
