@@ -217,7 +217,7 @@ def _assembled(
     if seat is not None and specs.mount.kind == "fixed":
         late = DAMPED * specs.outer_ring.relaxation
         model = model._replace(outer_ring=in_housing(model.outer_ring, seat, late))
-    count = specs.bearing.element_count
+    count = specs.bearing.total_elements
     if bends:
         bending = bending_of(specs.bearing)
         data = rigid_rings(count) if rings is None else rings.data

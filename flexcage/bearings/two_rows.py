@@ -11,6 +11,8 @@ from dataclasses import dataclass, fields, replace
 from math import pi, sin, sqrt
 from typing import TYPE_CHECKING, Any, ClassVar
 
+import numpy as np
+
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import mm
 from flexcage.geometry.bearing import Bearing
@@ -41,6 +43,7 @@ class RowPlace:
 class RowFields:
     """Keys of where rows stand, and what a spec says of its rows, for the functions below."""
 
+    row_count: ClassVar[int] = ROWS
     # power of i, the number of rows, in ISO 281's rating, and Weibull's e
     row_power: ClassVar[float]
     weibull: ClassVar[float]
@@ -137,3 +140,9 @@ def _find_in_rows(b: Any) -> Iterator[Finding]:
             f"bearing.row_distance is {mm(b.row_distance)}, so {b.element}s reach out of a bearing "
             f"{mm(b.width)} wide; give {mm(max(b.width - b.element_length, 0.0))} or less.",
         )
+
+
+def row_labels(count: int) -> dict[str, Any]:
+    """Coordinate of a run's elements, ``count`` a row: the row of each, 0 at -x."""
+    rows = np.repeat(np.arange(ROWS), count)
+    return {"row": (("element",), rows, {"long_name": "row of the element; 0 at -x"})}

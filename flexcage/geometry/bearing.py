@@ -106,6 +106,7 @@ class Bearing:
     sliced: ClassVar[tuple[str, ...]] = ("race", "pocket")  # those cut in slices or strips
     endurance: ClassVar[Endurance | None] = None  # constants of its modified life, ISO 281
     carries_axial_load: ClassVar[bool] = False  # in a run, with the ring free axially and in tilt
+    row_count: ClassVar[int] = 1  # rows of elements between its rings
     elsewhere: ClassVar[Mapping[str, str]] = {}  # patterns of keys that it has not: what there is
 
     type: str = type_name("cylindrical_roller")
@@ -151,8 +152,13 @@ class Bearing:
 
     @property
     def element_count(self) -> int:
-        """Z."""
+        """Z, of a row."""
         raise self._lacks("element_count")
+
+    @property
+    def total_elements(self) -> int:
+        """Elements of all rows, those of one row after the other's."""
+        return self.row_count * self.element_count
 
     @property
     def element_diameter(self) -> float:

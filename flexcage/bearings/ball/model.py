@@ -168,7 +168,7 @@ def build_ball_model(
     """Arrays of a ball bearing for the kernels, from its cage's body (``FlexibleBody``) and
     interface (``BallCageInterface``); without a cage all three are None."""
     rng = np.random.default_rng(seed)
-    scatter = bearing.ball_scatter * rng.standard_normal(bearing.ball_count)
+    scatter = bearing.ball_scatter * rng.standard_normal(bearing.total_elements)
     radius_of_balls = 0.5 * (bearing.ball_diameter + scatter)
     return BallModel(
         bodies=bodies_of(
@@ -184,10 +184,10 @@ def build_ball_model(
         outer=groove_of(bearing, contacts, lubricant, inner=False),
         pocket=(
             _pockets(bearing, cage, contacts, interface) if cage
-            else no_ball_pockets(bearing.ball_count)
+            else no_ball_pockets(bearing.total_elements)
         ),
         neighbours=ball_ball_data(bearing, contacts, radius_of_balls),
-        spot=SpottedBalls(marked(bearing.ball_count, bearing.ball_spot.balls)),
+        spot=SpottedBalls(marked(bearing.total_elements, bearing.ball_spot.balls)),
         land=(
             _lands(bearing, cage, contacts.land, lubricant, interface.land) if cage else no_land()
         ),
