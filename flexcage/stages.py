@@ -34,6 +34,7 @@ from flexcage.core.progress import Silent
 from flexcage.core.timing import Stages
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.quality import check_mesh
+from flexcage.mesh.rows import in_rows
 from flexcage.modes.reduction import CageReduction
 from flexcage.modes.table import ModeTable
 from flexcage.system.begun import Start
@@ -73,7 +74,7 @@ def cage_mesh(specs: MeshSections) -> CageMesh:
         return at_hand
     mesh = build_cage_mesh(**specs.cage_shape)
     check_mesh(mesh, where=specs.mesh.file or "mesh")
-    return mesh
+    return in_rows(mesh, specs.bearing.row_places)
 
 
 _mesh_at_hand: dict[str, CageMesh] = {}  # one at most

@@ -13,7 +13,6 @@ from flexcage.bearings.ball.model import (
     build_ball_model,
     groove_of,
 )
-from flexcage.bearings.two_rows import RowPlace
 from flexcage.bodies.floating_frame import BodyData
 from flexcage.contacts.ball_ball import BallBallContact
 from flexcage.contacts.ball_pocket import BallPockets
@@ -21,6 +20,7 @@ from flexcage.contacts.groove import Groove
 from flexcage.contacts.land import LandData
 from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.contacts.uneven import is_uneven
+from flexcage.geometry.bearing import RowPlace
 from flexcage.system.data import Bodies, RingBody, Work
 from flexcage.system.layout import Layout
 
@@ -28,7 +28,7 @@ from flexcage.system.layout import Layout
 class BallRows(NamedTuple):
     """How many balls a row has; those of the second row follow the first one's."""
 
-    count: int
+    each: int
 
 
 class DoubleRowModel(NamedTuple):
@@ -59,7 +59,7 @@ class DoubleRowModel(NamedTuple):
     def axial(self, ring: str) -> np.ndarray:
         """Axial places (2Z,) [m] of the centres of the grooves of every ball in a ring."""
         both = (getattr(self, ring).axial, getattr(self, f"{ring}_other").axial)
-        return np.repeat(both, self.rows.count)
+        return np.repeat(both, self.rows.each)
 
 
 def build_double_row_model(
@@ -95,5 +95,3 @@ def _in_row(groove: Groove, place: RowPlace, *, late: float, spalled: bool) -> G
 def double_row_work(model: DoubleRowModel, layout: Layout) -> Work:
     """Fresh workspaces for one thread."""
     return ball_work(model.balls(), layout)
-
-

@@ -10,7 +10,7 @@ from flexcage.core.jit import fields
 def touch_in_rows(t, y, yd, d, law, out, mode):
     """Forces of balls on their neighbours, as ``ball.neighbours.touch_neighbours``: the last ball
     of a row is next to its first one."""
-    at, cutoff, count = fields(d.places), fields(d.neighbours).cutoff, fields(d.rows).count
+    at, cutoff, count = fields(d.places), fields(d.neighbours).cutoff, fields(d.rows).each
     q, u = y[: at.bodies_q], y[at.u : at.bodies_u]
     for i in range(at.elements):
         j = i + 1 if (i + 1) % count != 0 else i + 1 - count

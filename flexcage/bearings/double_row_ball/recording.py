@@ -14,14 +14,16 @@ from flexcage.bearings.two_rows import row_labels
 from flexcage.integrate.recording import Recording
 from flexcage.system.layout import Layout
 
+_BALLS: Recording[Any] = BALLS
+
 
 def _coords(model: DoubleRowModel) -> dict[str, Any]:
-    return {**BALLS.coords(model), **row_labels(model.rows.count)}
+    return {**_BALLS.coords(model), **row_labels(model.rows.each)}
 
 
 def _overlaps(model: DoubleRowModel, layout: Layout, y: np.ndarray) -> np.ndarray:
     """As those of balls; the next ball is that of the same row."""
-    found, count = overlaps(model.balls(), layout, y), model.rows.count
+    found, count = overlaps(model.balls(), layout, y), model.rows.each
     behind = 2 + int(layout.has_cage)
     for row in (slice(None, count), slice(count, None)):
         balls = layout.q(y)["elements"][:, row]
@@ -29,5 +31,4 @@ def _overlaps(model: DoubleRowModel, layout: Layout, y: np.ndarray) -> np.ndarra
     return found
 
 
-_BALLS: Recording[Any] = BALLS
 RECORDING: Recording[Any] = replace(_BALLS, coords=_coords, overlaps=_overlaps)

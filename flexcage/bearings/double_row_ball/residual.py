@@ -23,7 +23,7 @@ from flexcage.system.ring import inner_of, outer_of
 
 def evaluate(t, y, yd, d, law, out, mode):
     """Residual into ``out``, as ``ball.residual.evaluate``."""
-    at, first = fields(d.places), fields(d.rows).count
+    at, first = fields(d.places), fields(d.rows).each
     q, u, qd, ud = y[: at.bodies_q], y[at.u : at.bodies_u], yd[: at.bodies_q], yd[at.u :]
     r_q, r_u = out[: at.bodies_q], out[at.u :]
     modes = set_bodies(y, d, mode)

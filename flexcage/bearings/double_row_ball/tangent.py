@@ -15,7 +15,7 @@ from flexcage.system.ring import inner_of, outer_of
 def linearise(t, y, yd, data):
     """Keep dF/dy and dF/dy' at this point; see ``system.newton``."""
     d, law = data[0], data[1]
-    at, first = fields(d.places), fields(d.rows).count
+    at, first = fields(d.places), fields(d.rows).each
     q, u = y[: at.bodies_q], y[at.u : at.bodies_u]
     modes = set_bodies(y, d, TANGENT)
     law[NEIGHBOUR_FORCES](t, y, yd, d, law[:FAMILY_PARTS], fields(d.scratch).out, TANGENT)
