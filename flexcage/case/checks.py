@@ -658,4 +658,4 @@ _OF_EVERY_CASE = (
     find_in_life,
     find_in_heat,
 )
-_OF_CAGES = (_find_in_mesh, _find_in_temperature, _find_in_land)
+_OF_CAGES = (_find_in_rows, _find_in_mesh, _find_in_temperature, _find_in_land)

@@ -159,6 +159,8 @@ def _without_cage(outline: Outline, source: str, inference: Inference, cage: str
 def _as_it_is(outline: Outline, source: str, candidates: Sequence[Candidate]) -> NewCase:
     """The case of a bearing of which there is a static solution alone, or that no usual cage
     fits."""
+    if outline.cage:
+        outline = unmarked(outline, outline.cage, caged=False)
     text = _text(outline, source, candidates[0], candidates, None)
     runs = in_motion(BEARING_TYPES[outline.type])
     (load_case if runs else load_static)(text)

@@ -46,7 +46,7 @@ def test_at_rest_it_has_the_forces_of_the_static_solution(bearing):
     rows = system.residual(0.0, start.y, start.yd)
     report = reported(system, start.y)
     most = due.elements.force.max()
-    np.testing.assert_allclose(report.race[:, :, 0], due.elements.force, atol=8e-4 * most)
+    np.testing.assert_allclose(report.race[:, :, 0], due.elements.force, atol=2e-3 * most)
     loaded = due.elements.force[:, 0] > 0.0
     angle = due.elements.angle[loaded]
     np.testing.assert_allclose(report.race[loaded][:, :, 1], angle, rtol=1e-3)
@@ -143,6 +143,27 @@ def test_balls_of_a_row_touch_those_of_their_own_row():
     balls[Z - 1, :2] = balls[0, :2]
     force = reported(system, y).rib[:, 0]
     assert np.flatnonzero(force).tolist() == [Z - 1] and force[Z - 1] > 1.0
+
+
+def test_balls_of_rows_that_interleave_touch_each_other():
+    """A ball of a 1205's second row, moved to one of the first, in front and behind; rows of a 3205
+    never meet."""
+    _, system, start = moving(B1205, radial=500.0)
+    n = B1205.ball_count
+    for side in (1.0, -1.0):
+        y = start.y.copy()
+        balls = system.layout.q(y)["elements"]
+        x, r = balls[n + 3, 0] - balls[3, 0], balls[3, 1]
+        apart = np.sqrt((B1205.ball_diameter - 1e-6) ** 2 - x**2)
+        balls[n + 3, 1] = r
+        balls[n + 3, 2] = balls[3, 2] + side * 2.0 * np.arcsin(0.5 * apart / r)
+        rows = system.residual(0.0, y, np.zeros_like(y))
+        force = reported(system, y).rib[:, 0]
+        assert np.flatnonzero(force).tolist() == [3] and force[3] > 1.0
+        assert np.abs(energy_misses(system, y, rows)).max() < 1e-4
+        total, moment, size = in_space(system, y)
+        np.testing.assert_allclose([*total, *moment], 0.0, atol=1e-11 * size)
+    assert not moving(B3205, radial=500.0)[1].data.model.rows.meet
 
 
 STATES = {

@@ -24,11 +24,15 @@ from flexcage.geometry.bearing import RowPlace
 from flexcage.system.data import Bodies, RingBody, Work
 from flexcage.system.layout import Layout
 
+_APART = 1.02  # balls' diameters between rows that never meet: they move along the axis by less
+
 
 class BallRows(NamedTuple):
-    """How many balls a row has; those of the second row follow the first one's."""
+    """How many balls a row has; those of the second row follow the first one's. And may balls of
+    one row touch those of the other?"""
 
     each: int
+    meet: int
 
 
 class DoubleRowModel(NamedTuple):
@@ -79,7 +83,7 @@ def build_double_row_model(
         for name, place in zip(("", "_other"), bearing.row_places)
     }  # fmt: skip
     own = balls._asdict() | grooves
-    return DoubleRowModel(**own, rows=BallRows(bearing.element_count))
+    return DoubleRowModel(**own, rows=BallRows(bearing.element_count, int(_meet(bearing))))
 
 
 def _in_row(groove: Groove, place: RowPlace, *, late: float, spalled: bool) -> Groove:
@@ -90,6 +94,12 @@ def _in_row(groove: Groove, place: RowPlace, *, late: float, spalled: bool) -> G
         axial=place.place + place.sense * (groove.axial - late), spall=spall,
         sides=np.sort(place.sense * groove.sides), uneven=is_uneven(groove.wave, spall),
     )  # fmt: skip
+
+
+def _meet(bearing: Any) -> bool:
+    """May balls of one row touch those of the other, which stand between them?"""
+    first, second = (row.place for row in bearing.row_places)
+    return bool(abs(second - first) < _APART * bearing.ball_diameter)
 
 
 def double_row_work(model: DoubleRowModel, layout: Layout) -> Work:
