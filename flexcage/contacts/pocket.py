@@ -33,7 +33,7 @@ from flexcage.contacts.slices import (
 )
 from flexcage.contacts.state import clear
 from flexcage.core.jit import outlined, part, zero
-from flexcage.core.vectors import RIGID, row, xyz
+from flexcage.core.vectors import RIGID, combine, row, xyz
 
 
 @outlined
@@ -59,10 +59,11 @@ def pocket_contact(i, roller, cage, data, laws, sl, pw, pair, mode, sums):
         zero(pw.point_T)
     # depths before the walls' residual deflection, then its coordinates b (``condensation``)
     centre = xyz(D)
+    middle = combine(centre, -data.place[i], row(pw.G, 0))
     zero(pw.push)
     searching = True
     while searching:
-        if not penetrations(pose, data, i, Rw, centre, q, margin, pw):
+        if not penetrations(pose, data, i, Rw, middle, q, margin, pw):
             return False
         searching = False
         if data.soft != 0:

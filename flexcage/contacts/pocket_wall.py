@@ -34,6 +34,7 @@ class PocketData(NamedTuple):
     """All pockets of a cage: faces 0 front, 1 rear, 2 side +x, 3 side -x."""
 
     azimuth: np.ndarray  # (Z, 2) cos, sin of pocket azimuths in the cage frame
+    place: np.ndarray  # (Z,) of their middles along the cage's axis
     half: np.ndarray  # (2,) half width, half length of a pocket
     s: np.ndarray  # (ns,) slice positions along the roller
     drop: np.ndarray  # (ns,)
@@ -144,7 +145,7 @@ def no_pockets(count: int, half_roller: float) -> PocketData:
     """Those of so many rollers, half as long [m] as given, without a cage: nowhere is a wall."""
     z, n, m = np.zeros, count, N_LOCAL
     return PocketData(
-        azimuth=z((n, 2)), half=np.full(2, np.inf), s=z(0), drop=z(0), points=z((0, 2)),
+        azimuth=z((n, 2)), place=z(n), half=np.full(2, np.inf), s=z(0), drop=z(0), points=z((0, 2)),
         half_roller=half_roller, middle=0.0, x0=z(4), dx=z(4), offset=z((n, 4, 1)), grid=z((2, 4)),
         low=z((n, 4)), bent=z((n, 4), np.int64), phi=z((n, 4, 0, 3, 0)), phi_max=z(0),
         rows=z((n, 4, 3, 0, 0)), soft=0, res=z((n, 4, 0, m)), res_max=z((n, 4, m)), most=z((n, m)),

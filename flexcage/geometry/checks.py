@@ -30,7 +30,7 @@ def greatest_speed(bearing: Bearing) -> float:
     if mass == 0.0:
         return inf
     pitch, diameter = bearing.pitch_diameter, bearing.element_diameter
-    most = 5.0 * OVERLOAD * bearing.static_rating / bearing.element_count
+    most = 5.0 * OVERLOAD * bearing.static_rating / bearing.total_elements
     return 2.0 / (1.0 - diameter / pitch) * sqrt(most / (0.5 * mass * pitch))
 
 

@@ -95,7 +95,7 @@ def _overloaded(o: RunOutcome) -> Iterator[RunWarning]:
     b = o.bearing
     angle = b.nominal_contact_angle
     share = sin(angle) if b.is_thrust else cos(angle) / _STRIBECK
-    allowed = b.static_rating * b.stress_share / (b.element_count * share)
+    allowed = b.static_rating * b.stress_share / (b.total_elements * share)
     largest = max((o.number("race_force_inner"), o.number("race_force_outer")), default=0.0)
     if largest > allowed:
         yield RunWarning(

@@ -169,7 +169,7 @@ def test_series_share_boundary_dimensions():
     for designation in filterfalse(needles.match, catalogue.designations()):
         outline = catalogue.find(designation).outline
         code = re.sub(
-            r"^(QJ\d|N(CF|JG)[23]\d|(N|NU|NJ|NUP)(10|2|3)|[67]\d|3[02]\d(?=\d\d)|32)|[A-Z]+$",
+            r"^(QJ\d|NN30|12|N(CF|JG)[23]\d|(N|NU|NJ|NUP)(10|2|3)|[67]\d|3[02]\d(?=\d\d)|32)|[A-Z]+$",
             "",
             designation,
         )
@@ -337,15 +337,11 @@ def test_makers_suffixes_are_read_and_each_is_explained(designation, same, notes
         ("81105 TN", "a cylindrical roller thrust bearing"),
         ("NKX 20", "a needle roller bearing combined with a ball bearing"),
         ("AXK 2035", "a thrust needle roller bearing"),
-        ("1205 ETN9", "a self-aligning ball bearing"),
-        ("2205", "a self-aligning ball bearing"),
-        ("NNU 4920", "a double row cylindrical roller bearing"),
         ("4205", "a double row deep groove ball bearing"),
         ("NNCF 5010 CV", "a double row full complement cylindrical roller bearing"),
         ("SL185010", "a double row full complement cylindrical roller bearing"),
         ("RSL183010", "a full complement cylindrical roller bearing without an outer ring"),
         ("NCF 2210 ECJB", "a high-capacity cylindrical roller bearing, with a cage"),
-        ("NN 3010", "a double row cylindrical roller bearing"),
         ("7210 DB", "a set of bearings back to back (DB)"),
         ("7010 CD/P4A DT", "a set of bearings in tandem (DT)"),
     ],
@@ -354,6 +350,20 @@ def test_bearings_of_other_kinds_are_declined_by_kind(designation, kind):
     with pytest.raises(InputError) as caught:
         catalogue.find(designation)
     assert str(caught.value).startswith(f"'{designation}' is {kind}; ")
+
+
+@pytest.mark.parametrize(
+    ("designation", "said"),
+    [
+        ("2205", "is a self-aligning ball bearing, of which the catalogue has the series 12; .* "
+                 "--type self_aligning_ball .* --contact-angle"),
+        ("NNU 4920", "is a double row cylindrical .* the series NN30; .* --outer-race"),
+        ("3305", "is a double row angular contact .* the series 32; .* --contact-angle"),
+    ],
+)  # fmt: skip
+def test_other_series_of_a_kind_that_is_here_are_told_of(designation, said):
+    with pytest.raises(InputError, match=said):
+        catalogue.find(designation)
 
 
 @pytest.mark.parametrize("designation", sorted(catalogue.designations()))

@@ -112,6 +112,16 @@ def test_qj208():
     assert run.summary["share_on_4_contacts"] > 0.5 and run.summary["energy_audit"] == "passed"
 
 
+def test_3205():
+    """The row at -x bears 2.3 times as much as the other, as the static solution has it."""
+    case = load_case(EXAMPLES / "3205.toml").replace({**SHORT, "mesh.fineness": "coarse"})
+    run = simulate(case)
+    force = run.dataset["race_force"].sel(race="inner").mean("time").groupby("row").sum().values
+    due = solve_static(load_static(EXAMPLES / "3205.toml")).elements.force[:, 0].reshape(2, -1)
+    assert force[0] / force[1] == pytest.approx(due[0].sum() / due[1].sum(), rel=0.03)
+    assert run.summary["energy_audit"] == "passed"
+
+
 def test_hk2020():
     """Five of 21 needles bear; the most loaded one 551 N, in the static solution."""
     solution = solve_static(load_static(EXAMPLES / "HK2020.toml"))

@@ -10,7 +10,6 @@ them.
 from __future__ import annotations
 
 from dataclasses import replace
-from math import pi
 from typing import Any
 
 import numpy as np
@@ -86,7 +85,7 @@ def placed(
     reach = model.outer.radius - model.bodies.radius + depth
     q["elements"][:, 0] = axial + reach * np.sin(angle)
     q["elements"][:, 1] = model.outer.centre + reach * np.cos(angle)
-    q["elements"][:, 2] = 2.0 * pi * np.arange(layout.elements) / layout.elements
+    q["elements"][:, 2] = balls.azimuth
     q["inner"][:5], q["outer"][:5] = solution.displacement, solution.outer
     x, r, psi = (q["elements"][:, k].copy() for k in range(3))
     along, up, aside, skew, tilt = solution.outer  # balls go with the race

@@ -54,6 +54,15 @@ class SpottedRollers(NamedTuple):
     angle: float  # of its middle [rad] while the roller's spin angle is zero
 
 
+class RollerRows(NamedTuple):
+    """How many rollers a row has, and of every roller the middle of its row along the axis and its
+    azimuth in the row."""
+
+    each: int
+    place: np.ndarray  # (Z,) [m]
+    azimuth: np.ndarray  # (Z,) [rad]
+
+
 class RollerModel(NamedTuple):
     """Everything constant that a roller bearing's residual reads."""
 
@@ -69,6 +78,7 @@ class RollerModel(NamedTuple):
     neighbours: RollerRollerContact
     spot: SpottedRollers
     land: LandData
+    rows: RollerRows
 
 
 def slice_grid(bearing: RollerBearing, slices: int) -> tuple[np.ndarray, np.ndarray]:
@@ -228,12 +238,30 @@ def _rib_data(
     )
 
 
+def _in_all_rows(interface: CageInterface, rows: int) -> CageInterface:
+    """The interface of a row's cage as one of the pockets of all rows."""
+    if rows == 1:
+        return interface
+    names = ("offset", "modes", "residual", "compliance")
+    all_rows: dict[str, Any] = {
+        name: np.concatenate([getattr(interface, name)] * rows) for name in names
+    }
+    return replace(interface, **all_rows)
+
+
+def _places_of_rows(bearing: RollerBearing) -> np.ndarray:
+    """Middle (Z,) [m] of the row of every roller."""
+    return np.repeat([row.place for row in bearing.row_places], bearing.roller_count)
+
+
 def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) -> PocketData:
     s, drop = slice_grid(bearing, contacts.pocket.slices)
+    interface = _in_all_rows(interface, bearing.row_count)
     at = interface.stations if interface.offset_at is None else interface.offset_at
     return pocket_arrays(
-        interface, interface.modes, interface.stations, at, contacts,
-        half=0.5 * np.array([cage.pocket_width, cage.pocket_length]), s=s, drop=drop,
+        interface, interface.modes, interface.stations, at, contacts, bearing.element_azimuths,
+        place=_places_of_rows(bearing), s=s, drop=drop,
+        half=0.5 * np.array([cage.pocket_width, cage.pocket_length]),
         points=end_points(bearing, cage), half_roller=0.5 * bearing.roller_length, middle=0.0,
         normal=_pocket_laws(bearing, cage, contacts, interface),
     )  # fmt: skip
@@ -241,13 +269,12 @@ def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) ->
 
 def pocket_arrays(
     interface: CageInterface, modes: np.ndarray, stations: np.ndarray, at: np.ndarray,
-    contacts: Contacts, **known: Any,
+    contacts: Contacts, angle: np.ndarray, **known: Any,
 ) -> PocketData:  # fmt: skip
-    """Pockets of a cage: ``modes`` (Z, 4, nst, 3, n) at the stations in the axes of the faces,
-    places of ``stations`` (4, nst) and of the offsets (4, no) along them [m], and what else is
-    ``known``."""
-    count, n = len(modes), modes.shape[-1]
-    angle = 2.0 * np.pi * np.arange(count) / count
+    """Pockets of a cage at ``angle`` (Z,): ``modes`` (Z, 4, nst, 3, n) at the stations in the axes
+    of the faces, places of ``stations`` (4, nst) and of the offsets (4, no) along them [m], and
+    what else is ``known``."""
+    n = modes.shape[-1]
     normal = np.stack([modes[:, f, :, 2 if f < 2 else 0] for f in range(4)], axis=1)
     st = np.ascontiguousarray
     if interface.compliance.shape[1:] != (N_LOCAL, N_LOCAL):
@@ -294,7 +321,7 @@ def build_roller_model(
     """Arrays of a roller bearing for the kernels, from its cage's body (``FlexibleBody``) and
     interface (``CageInterface``); without a cage all three are None."""
     scatter = bearing.roller_scatter * np.random.default_rng(seed).standard_normal(
-        bearing.roller_count
+        bearing.total_elements
     )
     spot = bearing.roller_spot
     return RollerModel(
@@ -313,13 +340,16 @@ def build_roller_model(
         outer_rib=_rib_data(bearing, cage, contacts, "outer"),
         pocket=(
             _pocket_data(bearing, cage, contacts, interface) if cage
-            else no_pockets(bearing.roller_count, 0.5 * bearing.roller_length)
+            else no_pockets(bearing.total_elements, 0.5 * bearing.roller_length)
         ),
         neighbours=roller_roller_data(
             bearing, contacts, *slice_grid(bearing, contacts.race.slices)
         ),
-        spot=SpottedRollers(marked(bearing.roller_count, spot.rollers), spot.angle),
+        spot=SpottedRollers(marked(bearing.total_elements, spot.rollers), spot.angle),
         land=_land(bearing, cage, contacts, lubricant, interface) if cage else no_land(),
+        rows=RollerRows(
+            bearing.roller_count, _places_of_rows(bearing), bearing.element_azimuths
+        ),
     )  # fmt: skip
 
 
@@ -329,7 +359,9 @@ def _land(
 ) -> LandData:  # fmt: skip
     """The cage's land on the ring that guides it."""
     outer, radius, clearance = _guiding_land(bearing, cage)
-    land = replace(contacts.land.on(bearing.land(cage)), clearance=clearance)
+    ring = bearing.land(cage)
+    assert ring is not None, "rollers' cages face a ring"
+    land = replace(contacts.land.on(ring), clearance=clearance)
     return land_data(
         cage,
         land,
@@ -339,6 +371,7 @@ def _land(
         outer=outer,
         radius=radius,
         bearing=bearing,
+        end=ring.end,
     )
 
 

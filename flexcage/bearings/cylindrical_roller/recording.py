@@ -101,12 +101,16 @@ def overlaps(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarray:
     ribs = [none] * rib_columns(model)
     for data, place in ((model.rib, in_inner), (model.outer_rib, in_outer)):
         for f in range(data.first, data.end):
-            ribs[data.column + f] = place[..., 0] * (1.0, -1.0)[f] + end - data.half_gap
+            beside = place[..., 0] - model.rows.place
+            ribs[data.column + f] = beside * (1.0, -1.0)[f] + end - data.half_gap
     if layout.has_cage:
         others = _in_walls(model, q, at)
     else:
-        away = (np.roll(at, -1, axis=1) - at)[..., 1:]
-        others = [radius + np.roll(radius, -1) - np.linalg.norm(away, axis=-1)]
+        count = model.rows.each
+        following = np.arange(len(radius)) + 1
+        following[count - 1 :: count] -= count
+        away = (at[:, following] - at)[..., 1:]
+        others = [radius + radius[following] - np.linalg.norm(away, axis=-1)]
     return np.stack(
         [
             model.inner.radius + radius - np.hypot(in_inner[..., 1], in_inner[..., 2]),
@@ -124,10 +128,11 @@ def _in_walls(model: RollerModel, q: dict[str, np.ndarray], at: np.ndarray) -> l
     frames = Rotation.from_quat(q["quaternion"], scalar_first=True).as_matrix()
     seen = np.einsum("nzc,ncd->nzd", at - q["cage"][:, None], frames)
     ahead = seen[..., 2] * cos - seen[..., 1] * sin
+    beside = seen[..., 0] - model.pocket.place
     walls = np.repeat(model.pocket.half, 2) + np.maximum(model.pocket.offset.max(axis=2), 0.0)
     return [
         ahead + radius - walls[:, 0], -ahead + radius - walls[:, 1],
-        seen[..., 0] + end - walls[:, 2], -seen[..., 0] + end - walls[:, 3],
+        beside + end - walls[:, 2], -beside + end - walls[:, 3],
     ]  # fmt: skip
 
 

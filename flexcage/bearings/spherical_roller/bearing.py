@@ -51,7 +51,7 @@ class SphericalRollerBearing(RowFields, OfInclinedRollers):
     sliced: ClassVar[tuple[str, ...]] = ("race",)
     endurance: ClassVar[Endurance | None] = ROLLERS
     carries_axial_load: ClassVar[bool] = True
-    aligns_itself: ClassVar[bool] = True
+    self_aligning: ClassVar[bool] = True
     one_sided: ClassVar[bool] = False
     row_power: ClassVar[float] = 7.0 / 9.0  # ISO 281, roller bearings
     weibull: ClassVar[float] = 9.0 / 8.0

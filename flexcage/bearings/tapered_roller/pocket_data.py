@@ -61,7 +61,8 @@ def cone_pocket_data(
     at = interface.stations if interface.offset_at is None else interface.offset_at
     depth = (walls.middle * walls.normal).sum(axis=1)
     known: dict[str, Any] = {
-        "half": depth[[0, SIDES]], "s": s, "drop": whole - reach, "points": points,
+        "place": np.zeros(b.roller_count), "half": depth[[0, SIDES]],
+        "s": s, "drop": whole - reach, "points": points,
         "half_roller": 0.5 * b.roller_length, "middle": -b.roller.centre,
         "normal": laws_in_pockets(
             b, cage, cage.bar_width(0.0, cage.offset, b.roller_count), len(points), contacts,
@@ -70,7 +71,7 @@ def cone_pocket_data(
     }  # fmt: skip
     return pocket_arrays(
         interface, modes, _on_faces(walls, interface.stations), _on_faces(walls, at), contacts,
-        **known,
+        b.element_azimuths, **known,
     )  # fmt: skip
 
 
