@@ -24,6 +24,7 @@ TESTED = {
     "ex10_signals",
     "ex11_diagnosis",
     "ex12_tapered",
+    "ex13_tapered_run",
 }
 
 
@@ -60,6 +61,12 @@ def test_tapered_example(capsys):
     assert still == pytest.approx(module.wedge()) and fast > 1.1 * still
     assert module.loaded() == 15
     assert "the rib bears" in capsys.readouterr().out
+
+
+def test_tapered_rollers_run(capsys):
+    ratio, skew = example("ex13_tapered_run").main(**{"solver.duration": "2 ms"})
+    assert ratio == pytest.approx(1.0, abs=0.01) and skew > 0.0
+    assert "askew" in capsys.readouterr().out
 
 
 def test_static(capsys):
