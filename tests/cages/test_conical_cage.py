@@ -1,18 +1,24 @@
 """Conical cages: places and planes, clearances of rollers, mass, and what is refused."""
 
+import re
+import tomllib
 from dataclasses import replace
 from math import cos, pi, radians, sin, tan
+from pathlib import Path
 
 import numpy as np
 import pytest
 from conical_cage import CONE, COUNT, MM, ROLLERS
 
+from flexcage.cages.conical.cage import ConicalCage
 from flexcage.cages.conical.mass import mass_of
 from flexcage.cages.conical.proposal import propose_conical_cage
 from flexcage.cages.conical.rollers import clearance_around
 from flexcage.cages.conical.walls import pocket_walls
 from flexcage.cages.window.broken import BrokenCrossbeam
 from flexcage.cages.window.defects import CrossbeamDefect, SideBeamDefect
+from flexcage.case.presets import NAMED
+from flexcage.core.binding import Binder, to_table
 from flexcage.core.errors import InputError
 
 ANGLE = ROLLERS.axis_angle
@@ -156,3 +162,22 @@ def test_a_cone_is_proposed_that_holds_the_rollers(angle, diameter):
     assert gaps == pytest.approx([0.03 * diameter * MM] * 3, abs=0.02 * MM)
     assert made.cage.parts(0.0, COUNT)["crossbeams"] > 0.15 * diameter * MM
     assert all(field in made.cage.__dataclass_fields__ for field in made.reasons)
+
+
+def test_the_cone_of_the_page_is_a_cage():
+    """As a case gives it, with a bearing of its angle and rollers; it returns as it was written."""
+    page = Path(__file__).parents[2] / "flexcage" / "cages" / "README.md"
+    (block,) = re.findall(r"^```toml\n(\[cage\]\ntype = .conical.*?)^```", page.read_text("utf-8"),
+                          flags=re.S | re.M)  # fmt: skip
+    table = tomllib.loads(block)
+    binder = Binder(named=NAMED)
+    made = binder.bind(ConicalCage, table["cage"], "cage")
+    assert binder.bind(ConicalCage, to_table(made), "cage") == made
+    made.check(17)
+    rollers = replace(
+        ROLLERS, contact_angle=radians(14.0), pitch_diameter=39 * MM, roller_diameter=6.2 * MM,
+        roller_length=9.5 * MM, effective_length=8.8 * MM, roller_count=17, bore=25 * MM,
+        outside_diameter=52 * MM, end_radius=76 * MM,
+    )  # fmt: skip
+    (defect,) = table["defects"]
+    rollers.check(made, [binder.bind(CrossbeamDefect, defect, "defects.0")])

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import Any
 
 from flexcage.core.units import mm
 from flexcage.geometry.cage import Objection
 
-if TYPE_CHECKING:
-    from flexcage.cages.conical.cage import ConicalCage
 
-
-def impossible(cage: ConicalCage, pocket_count: int) -> Iterator[Objection]:
+def impossible(cage: Any, pocket_count: int) -> Iterator[Objection]:
     """Dimensions that leave no body: small end, bars, pockets, fillets."""
     half = 0.5 * cage.pocket_length
     if cage.bore <= 0.0:
