@@ -24,7 +24,8 @@ TESTED = {
     "ex10_signals",
     "ex11_diagnosis",
     "ex12_tapered",
-    "ex13_spherical",
+    "ex13_tapered_run",
+    "ex14_spherical",
 }
 
 
@@ -64,10 +65,16 @@ def test_tapered_example(capsys):
 
 
 def test_spherical_example(capsys):
-    module = example("ex13_spherical")
+    module = example("ex14_spherical")
     both, few = module.main(0.0, module.limit())
     assert both == pytest.approx(0.5, abs=0.01) and few < 0.02
     assert "the row at -x bears" in capsys.readouterr().out
+
+
+def test_tapered_rollers_run(capsys):
+    ratio, skew = example("ex13_tapered_run").main(**{"solver.duration": "2 ms"})
+    assert ratio == pytest.approx(1.0, abs=0.01) and skew > 0.0
+    assert "askew" in capsys.readouterr().out
 
 
 def test_static(capsys):

@@ -48,7 +48,7 @@ SPEEDS.add("tapered_spin_ideal", "Roller speed, pure rolling", "rpm", "the same 
            take=lambda part: abs(part.bearing.kinematics(part.inner_speed).element_spin_in_cage))
 SPEEDS.figures["roller_skew"] = ROLLERS.figures["roller_skew"]
 SPEEDS.add("roller_skew_loaded", "Roller skew, loaded", "mrad",
-           "mean of loaded rollers; positive: the large end leads in the positive sense of x",
+           "mean of loaded rollers; positive: their large ends lead, in the positive sense about x",
            "signed", "statistic", take=_loaded_skew)
 FORCES = FigureTable[SettledRun]("Forces")
 FORCES.add("rib_load", "Large rib, on all rollers", "N",

@@ -14,8 +14,9 @@ from flexcage.bearings.tapered_roller.pocket_data import cone_pocket_data, face_
 from flexcage.bodies.floating_frame import BodyData, no_body
 from flexcage.cages.conical.cage import ConicalCage
 from flexcage.contacts import laws
-from flexcage.contacts.cone import ConeSide, EndData
+from flexcage.contacts.cone import ConeSide
 from flexcage.contacts.cone_cone import ConeConeContact
+from flexcage.contacts.cone_end import EndData
 from flexcage.contacts.cone_pocket import FaceFrames, cone_pocket_work
 from flexcage.contacts.land import LandData, no_land
 from flexcage.contacts.pocket_wall import PocketData, no_pockets

@@ -56,7 +56,7 @@ def cone_pocket_data(
     walls, frames = pocket_walls(cage), face_frames(b, cage)
     s, reach = spheres(b, contacts.pocket.slices)
     whole = b.sphere_at_centre
-    points = points_over(walls.inside, walls.outside, b.roller_diameter)
+    points = points_over(cage.section.inside, cage.section.outside, b.roller_diameter)
     modes = np.einsum("fab,zfsbm->zfsam", frames.axes, interface.modes)
     at = interface.stations if interface.offset_at is None else interface.offset_at
     depth = (walls.middle * walls.normal).sum(axis=1)
@@ -65,7 +65,7 @@ def cone_pocket_data(
         "s": s, "drop": whole - reach, "points": points,
         "half_roller": 0.5 * b.roller_length, "middle": -b.roller.centre,
         "normal": laws_in_pockets(
-            b, cage, cage.bar_width(0.0, cage.offset, b.roller_count), len(points), contacts,
+            b, cage, cage.bar_width(0.0, cage.bar_height, b.roller_count), len(points), contacts,
             interface,
         ),
     }  # fmt: skip

@@ -18,7 +18,8 @@ from flexcage.bearings.cylindrical_roller.residual import (
     set_bodies,
 )
 from flexcage.bearings.tapered_roller.model import LARGE_RIB
-from flexcage.contacts.cone import cone_penetrations, cone_wrench, end_contact
+from flexcage.contacts.cone import cone_penetrations, cone_wrench
+from flexcage.contacts.cone_end import end_contact
 from flexcage.contacts.evaluation import (
     APPROACH,
     DAMPED,

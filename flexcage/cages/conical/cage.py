@@ -7,8 +7,9 @@ axis from its middle towards the apex, at +x, and across it outwards. The large 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from math import cos, hypot, pi, sin, tan
 from typing import Any, ClassVar, NamedTuple
 
@@ -16,14 +17,13 @@ import numpy as np
 
 from flexcage.cages.window.windowed import WindowedCage
 from flexcage.core.spec import option, quantity
-from flexcage.core.units import mm, typeset
+from flexcage.core.units import typeset
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import HeldElements, Objection, cages_of
 from flexcage.geometry.materials import MATERIALS, Material
 
 GUIDANCE = ("roller",)
 TAPERED_ROLLER_CAGES = cages_of("tapered roller")
-_SHARPEST = 1e-4  # fillet, of the pocket's smaller side; smaller ones are lost in its mesh
 _STEEPEST = pi / 3.0
 
 
@@ -64,10 +64,10 @@ class ConicalCage(WindowedCage):
     large_rim: float = quantity("mm", doc="width of the large rim, along the wall", above=0.0)
     pocket_length: float = quantity("mm", doc="pocket length along the roller's axis", above=0.0)
     pocket_width_small: float = quantity(
-        "mm", doc="pocket width at its small end, in the middle of the wall", above=0.0
+        "mm", doc="pocket width at its small end, halfway up the bars' faces", above=0.0
     )
     pocket_width_large: float = quantity(
-        "mm", doc="pocket width at its large end, in the middle of the wall", above=0.0
+        "mm", doc="pocket width at its large end, halfway up the bars' faces", above=0.0
     )
     flank_angle: float = quantity(
         "deg", 0.0, doc="slope of the bars' faces: pockets narrow outwards where it is > 0",
@@ -99,11 +99,35 @@ class ConicalCage(WindowedCage):
 
     def half_width(self, s: Any, n: Any) -> Any:
         """Half of a pocket's width [m] at a place in its middle plane's section."""
-        return 0.5 * self.pocket_width - s * self.taper - (n - self.offset) * tan(self.flank_angle)
+        above = n - self.bar_height
+        return 0.5 * self.pocket_width - s * self.taper - above * tan(self.flank_angle)
+
+    @cached_property
+    def bar_height(self) -> float:
+        """Height n [m] of the wall's middle at the bars' faces, halfway along a pocket: a cone is
+        lower there than in the pocket's middle plane."""
+        return self._height_beside(0.0, self.offset, lambda n: 0.5 * self.pocket_width)
+
+    def face_heights(self, s: float) -> tuple[float, float]:
+        """Heights n [m] at which a bar's face begins and ends, at a place s along the pocket."""
+        at = self.section
+        low, high = (
+            self._height_beside(s, n, lambda n: float(self.half_width(s, n)))
+            for n in (at.inside, at.outside)
+        )
+        return low, high
+
+    def _height_beside(self, s: float, height: float, beside: Callable[[float], float]) -> float:
+        """Height n of a cone, which is at a height in the middle plane, beside that plane."""
+        n = height
+        for _ in range(60):  # a contraction: bars are steeper than the cone falls
+            y, t = float(self.radius(s, n)), beside(n)
+            n = height - t**2 / (hypot(y, t) + y) * cos(self.cone_angle)
+        return n
 
     @property
     def pocket_width(self) -> float:  # type: ignore[override]
-        """Width of a pocket [m] halfway along it, in the middle of the wall."""
+        """Width of a pocket [m] halfway along it and halfway up the bars' faces."""
         return 0.5 * (self.pocket_width_small + self.pocket_width_large)
 
     @property
@@ -189,7 +213,7 @@ class ConicalCage(WindowedCage):
         return place @ super().pocket_frame(pocket, pocket_count)
 
     def measured_at(self, pitch_radius: float) -> float:
-        return self.offset
+        return self.bar_height
 
     def in_section(self, points: np.ndarray) -> np.ndarray:
         """Places (n, 2) [m] of points of the cage in its section, turned about the axis: along the
@@ -208,17 +232,18 @@ class ConicalCage(WindowedCage):
         step = pi / pocket_count
         return float(2.0 * (self.radius(s, n) * sin(step) - self.half_width(s, n) * cos(step)))
 
-    def _thinnest_bar(self, pocket_count: int) -> float:
-        half, at = 0.5 * self.pocket_length, self.section
-        places = ((s, n) for s in (-half, half) for n in (at.inside, at.outside))
+    def thinnest_bar(self, pocket_count: int) -> float:
+        """Least width [m] of a bar, at the corners of its faces."""
+        half = 0.5 * self.pocket_length
+        places = ((s, n) for s in (-half, half) for n in self.face_heights(s))
         return min(self.bar_width(s, n, pocket_count) for s, n in places)
 
     def thinnest(self, pitch_diameter: float, pocket_count: int) -> float:
-        return min(self.thickness, self.bar_width(0.0, self.offset, pocket_count))
+        return min(self.thickness, self.bar_width(0.0, self.bar_height, pocket_count))
 
     def parts(self, pitch_diameter: float, pocket_count: int) -> dict[str, float]:
         return {
-            "crossbeams": self._thinnest_bar(pocket_count),
+            "crossbeams": self.thinnest_bar(pocket_count),
             "rims": min(self.small_rim, self.large_rim),
             "wall": self.thickness,
         }
@@ -234,38 +259,9 @@ class ConicalCage(WindowedCage):
         )
 
     def impossible(self, pocket_count: int) -> Iterator[Objection]:
-        """Dimensions that leave no body: small end, bars, pockets, fillets."""
-        at, half = self.section, 0.5 * self.pocket_length
-        if self.bore <= 0.0:
-            yield "pitch_diameter", "so the wall runs into the bearing's axis at its small end"
-        if self.pocket_width_small > self.pocket_width_large:
-            yield (
-                "pocket_width_small",
-                f"wider than at the large end; it must be at most {mm(self.pocket_width_large)}",
-            )
-        narrow = min(2.0 * self.half_width(half, n) for n in (at.inside, at.outside))
-        if narrow <= 0.0:
-            yield "flank_angle", "so the bars' faces meet within the wall; make it smaller"
-        if (bar := self._thinnest_bar(pocket_count)) <= 0.0:
-            yield (
-                "pocket_width_small",
-                f"makes the {pocket_count} crossbeams thinner than zero, {mm(bar)}, at an end; "
-                "make pockets narrower or the offset greater",
-            )
-        yield from self._fillets(0.5 * min(narrow, self.pocket_length))
+        from flexcage.cages.conical.checks import impossible
 
-    def _fillets(self, half: float) -> Iterator[Objection]:
-        """Fillets that a pocket, ``half`` of whose smallest side [m] is, has no room for."""
-        if self.fillet_radius >= half:
-            yield (
-                "fillet_radius",
-                f"is too big; it must be less than half of the pocket's side, {mm(half)}",
-            )
-        if self.fillet_radius < 2.0 * _SHARPEST * half:
-            yield (
-                "fillet_radius",
-                f"is a sharp corner; it must be at least {mm(2.0 * _SHARPEST * half)}",
-            )
+        return impossible(self, pocket_count)
 
     def nearest(self, s: float) -> tuple[float, float, float]:
         """Where a bar's face is nearest to the pocket's axis at a place s [m] along it: n, distance
@@ -273,7 +269,8 @@ class ConicalCage(WindowedCage):
         foot of the perpendicular is beyond it."""
         flank = self.flank_angle
         foot = self.half_width(s, 0.0) * cos(flank) * sin(flank)
-        n = min(max(foot, self.section.inside), self.section.outside)
+        low, high = self.face_heights(s)
+        n = min(max(foot, low), high)
         t = self.half_width(s, n)
         return n, t, hypot(n, t)
 

@@ -98,16 +98,16 @@ def _between_planes(
 def _corners(cage: ConicalCage) -> tuple[np.ndarray, np.ndarray]:
     """Places (4, 2), x and r, and volumes (4,) of what fillets leave in the corners."""
     half, rho = 0.5 * cage.pocket_length, cage.fillet_radius
-    tilt, high = asin(cage.face_normals[0, 0]), cage.thickness / cos(cage.flank_angle)
+    tilt = asin(cage.face_normals[0, 0])
     places, volumes = [], []
     for sign in (-1.0, 1.0):
         inner = 0.5 * pi + sign * tilt  # angle between the faces, blunt at the small end
         area = rho**2 * (1.0 / tan(0.5 * inner) - 0.5 * (pi - inner))
-        s = sign * (half - _DEPTH * rho)
-        t = cage.half_width(s, cage.offset) - _DEPTH * rho
-        r = np.hypot(cage.radius(s, cage.offset), t)
-        places += 2 * [(cage.axial(s, cage.offset), r)]
-        volumes += 2 * [area * high]
+        s, n = sign * (half - _DEPTH * rho), cage.bar_height
+        low, high = cage.face_heights(s)
+        t = cage.half_width(s, n) - _DEPTH * rho
+        places += 2 * [(cage.axial(s, n), np.hypot(cage.radius(s, n), t))]
+        volumes += 2 * [area * (high - low) / cos(cage.flank_angle)]
     return np.array(places), np.array(volumes)
 
 

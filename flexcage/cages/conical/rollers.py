@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from math import cos, hypot
-from typing import TYPE_CHECKING, Protocol
+from typing import Any, Protocol
 
 from flexcage.core.units import describe, mm
 from flexcage.geometry.cage import HeldElements, Objection
-
-if TYPE_CHECKING:
-    from flexcage.cages.conical.cage import ConicalCage
 
 # assumption: how far angle and pitch diameter of a cage may be from the rollers': 1 um over the
 # half length of a roller of 10 mm, and 10 um, below what it notices within its clearances
@@ -36,13 +33,13 @@ class TaperedRollers(HeldElements, Protocol):
     def roller(self) -> Frustum: ...
 
 
-def clearance_around(cage: ConicalCage, roller: Frustum, s: float) -> float:
+def clearance_around(cage: Any, roller: Frustum, s: float) -> float:
     """How far [m] a roller in the middle of its pocket is from both bars together, measured across
     its axis, at a place s [m] along it."""
     return 2.0 * (cage.nearest(s)[2] - roller.radius(s))
 
 
-def obstructions(cage: ConicalCage, bearing: HeldElements) -> Iterator[Objection]:
+def obstructions(cage: Any, bearing: HeldElements) -> Iterator[Objection]:
     """What leaves no room in the cage for the rollers, or for itself between the rings."""
     rollers: TaperedRollers = bearing  # type: ignore[assignment]
     yield from _off_axes(cage, rollers)
@@ -51,7 +48,7 @@ def obstructions(cage: ConicalCage, bearing: HeldElements) -> Iterator[Objection
     yield from _between_races(cage, rollers)
 
 
-def _off_axes(cage: ConicalCage, b: TaperedRollers) -> Iterator[Objection]:
+def _off_axes(cage: Any, b: TaperedRollers) -> Iterator[Objection]:
     """Pockets that do not lie along the rollers."""
     for name, own, theirs, unit, most in (
         ("cone_angle", cage.cone_angle, b.axis_angle, "deg", _ANGLE_OFF),
@@ -61,7 +58,7 @@ def _off_axes(cage: ConicalCage, b: TaperedRollers) -> Iterator[Objection]:
             yield name, f"but the rollers' axes have {describe(theirs, unit)}; give that"
 
 
-def _tight(cage: ConicalCage, b: TaperedRollers) -> Iterator[Objection]:
+def _tight(cage: Any, b: TaperedRollers) -> Iterator[Objection]:
     """Pockets that rollers do not go into."""
     along = cage.pocket_length - b.element_length
     if along <= 0.0:
@@ -83,7 +80,7 @@ def _tight(cage: ConicalCage, b: TaperedRollers) -> Iterator[Objection]:
             )
 
 
-def _edges_in_fillets(cage: ConicalCage, b: TaperedRollers) -> Iterator[Objection]:
+def _edges_in_fillets(cage: Any, b: TaperedRollers) -> Iterator[Objection]:
     edge, radius = b.element_edge, cage.fillet_radius
     along = radius - edge - 0.5 * (cage.pocket_length - b.element_length)
     for s in (-0.5 * b.element_length, 0.5 * b.element_length):
@@ -99,7 +96,7 @@ def _edges_in_fillets(cage: ConicalCage, b: TaperedRollers) -> Iterator[Objectio
             return
 
 
-def _between_races(cage: ConicalCage, b: TaperedRollers) -> Iterator[Objection]:
+def _between_races(cage: Any, b: TaperedRollers) -> Iterator[Objection]:
     """A wall that cuts through a race, drawn on beside the small rim, or through the large rib."""
     at = cage.section
     race = b.roller.radius(at.small)

@@ -105,8 +105,7 @@ def _window(gmsh: Any, cage: ConicalCage) -> list[tuple[int, int]]:
     """The solid that a pocket takes away, from beyond its middle plane to the bar, with rounded
     corners; it reaches through the wall, whose cones are lower beside the middle plane."""
     occ, at, half = gmsh.model.occ, cage.section, 0.5 * cage.pocket_length
-    widest = cage.half_width(-half, at.inside)
-    low = at.inside - 0.2 * cage.thickness - 1.5 * widest**2 / cage.bore
+    low = min(cage.face_heights(s)[0] for s in (-half, half)) - 0.2 * cage.thickness
     high = at.outside + 0.05 * cage.thickness
     corner = {
         (s, n, t): _point(occ, cage, s * half, n, t * cage.half_width(s * half, n))

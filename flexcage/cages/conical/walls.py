@@ -20,10 +20,10 @@ class PocketWalls:
     """The faces front, rear, side+x and side-x of a pocket, in its frame (s, n, t) [m].
 
     A plane has the points p with (p - middle) . normal = 0; ``normal`` points out of the pocket,
-    into the cage, and ``middle`` lies in the middle of the wall's thickness. ``along`` is the
+    into the cage, and ``middle`` lies in the face's middle. ``along`` is the
     direction in which a face's stations count, s or t, and ``reach`` half its length in it, from
-    corner to corner. All faces end at the heights ``inside`` and ``outside`` n, nearly: at the
-    cones of the wall, which are curved by t^2 cos(cone_angle)/(2 radius).
+    corner to corner. The bars' faces begin and end at the heights ``inside`` and ``outside`` n,
+    halfway along the pocket (elsewhere: ``ConicalCage.face_heights``).
     """
 
     middle: np.ndarray  # (4, 3)
@@ -36,14 +36,17 @@ class PocketWalls:
 
 def pocket_walls(cage: ConicalCage) -> PocketWalls:
     """The walls of a sound pocket; those of all pockets are alike."""
-    half, at = 0.5 * cage.pocket_length, cage.section
-    n, w = cage.offset, 0.5 * cage.pocket_width
+    half = 0.5 * cage.pocket_length
+    n, w = cage.bar_height, 0.5 * cage.pocket_width
+    inside, outside = cage.face_heights(0.0)
     s, t = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
     return PocketWalls(
-        middle=np.array([[0.0, n, w], [0.0, n, -w], [half, n, 0.0], [-half, n, 0.0]]),
+        middle=np.array(
+            [[0.0, n, w], [0.0, n, -w], [half, cage.offset, 0.0], [-half, cage.offset, 0.0]]
+        ),
         normal=cage.face_normals,
         along=np.stack([s, s, t, t]),
         reach=np.array([half, half, 0.5 * cage.end_width(1.0), 0.5 * cage.end_width(-1.0)]),
-        inside=at.inside,
-        outside=at.outside,
+        inside=inside,
+        outside=outside,
     )

@@ -12,7 +12,6 @@ from flexcage.core.spec import option, quantity
 from flexcage.core.units import mm, typeset
 from flexcage.geometry.cage import CylindricalCage, HeldElements, Objection, cages_of
 
-_SHARPEST = 1e-4  # fillet, of the pocket's smaller side; smaller ones are lost in its mesh
 GUIDANCE = ("roller", "inner", "outer")
 ROLLER_CAGES = cages_of("roller")
 
@@ -80,17 +79,7 @@ class WindowCage(WindowedCage, CylindricalCage):
                 f"makes the {pocket_count} crossbeams thinner than zero at the bore; it must be "
                 f"less than {mm(chord)}",
             )
-        half = 0.5 * min(self.pocket_width, self.pocket_length)
-        if self.fillet_radius >= half:
-            yield (
-                "fillet_radius",
-                f"is too big; it must be less than half of the pocket's side, {mm(half)}",
-            )
-        if self.fillet_radius < 2.0 * _SHARPEST * half:
-            yield (
-                "fillet_radius",
-                f"is a sharp corner; it must be at least {mm(2.0 * _SHARPEST * half)}",
-            )
+        yield from self.unfit_fillets(0.5 * min(self.pocket_width, self.pocket_length))
 
     def obstructions(self, bearing: HeldElements) -> Iterator[Objection]:
         for name, size, own, what in (

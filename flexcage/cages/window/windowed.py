@@ -7,15 +7,18 @@ azimuth. Defects, measures and contact stations are written in it.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from math import cos, pi, sin
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from flexcage.core.units import mm
 from flexcage.geometry.bearing import Bearing
-from flexcage.geometry.cage import Cage
+from flexcage.geometry.cage import Cage, Objection
 from flexcage.mesh.measure import in_pocket_frame
 
+_SHARPEST = 1e-4  # fillet, of the pocket's smaller side; smaller ones are lost in its mesh
 #: Faces of a pocket, and on which side of its middle each lies.
 FACE_SIGN = {"front": 1.0, "rear": -1.0, "side+x": 1.0, "side-x": -1.0}
 FACES = tuple(FACE_SIGN)
@@ -45,6 +48,19 @@ class WindowedCage(Cage):
     def wall(self) -> float:
         """Thickness [m] of the wall."""
         return 0.5 * (self.outside_diameter - self.bore)
+
+    def unfit_fillets(self, half: float) -> Iterator[Objection]:
+        """Fillets that a pocket, ``half`` [m] of its smallest side, has no room for, or no use."""
+        if self.fillet_radius >= half:
+            yield (
+                "fillet_radius",
+                f"is too big; it must be less than half of the pocket's side, {mm(half)}",
+            )
+        if self.fillet_radius < 2.0 * _SHARPEST * half:
+            yield (
+                "fillet_radius",
+                f"is a sharp corner; it must be at least {mm(2.0 * _SHARPEST * half)}",
+            )
 
     def rim_width(self, side: float) -> float:
         """Width [m] of the rim on a side of the pockets, +1 for +x or -1."""
