@@ -27,7 +27,14 @@ class Roller(Protocol):
         """Axial and transverse moments of inertia [kg m^2] about its centre of mass."""
 
 
-class OfInclinedRollers(OfRollers, Bearing):
+if TYPE_CHECKING:  # a part of specs, not one itself
+
+    class _OfRollers(OfRollers, Bearing): ...
+else:
+    _OfRollers = OfRollers
+
+
+class OfInclinedRollers(_OfRollers):
     """What follows from the keys of such a bearing, and from its rollers' angle and shape."""
 
     if TYPE_CHECKING:

@@ -43,7 +43,6 @@ _DESIGNATIONS = {
 }
 _NAMES = {
     r".*thrust.*": "thrust bearings",
-    r"(spherical|barrel).*": "spherical roller bearings",
     r"(double|two|multi|four).?row.*|duplex.*": "such bearings of several rows",
     r"(cross|toroid|carb|insert|slewing|linear|plain|journal|magnetic|slide).*": "such bearings",
 }

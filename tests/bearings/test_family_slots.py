@@ -17,7 +17,7 @@ from flexcage.results.slip import ElementSpeed
 RUN = [family for family in FAMILIES.values() if family.motion is not None]
 #: What families that run have not.
 WITHOUT = {
-    "four_point": {"rings", "bending", "losses"},
+    "four_point": {"rings", "bending"},
     "tapered_roller": {"rings", "bending", "rubbing"},
 }
 

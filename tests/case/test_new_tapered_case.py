@@ -1,7 +1,7 @@
 """Tapered roller bearings of the catalogue: what is inferred, and what is said of others."""
 
 import re
-from math import asin, pi, radians, sin, tan
+from math import asin, degrees, pi, radians, sin, tan
 
 import pytest
 
@@ -22,6 +22,19 @@ PRINTED = {
     "32008": (0.38, 1.58, 0.87), "32009": (0.39, 1.53, 0.84), "32010": (0.42, 1.42, 0.78),
     "30205": (0.37, 1.60, 0.88), "30209": (0.40, 1.48, 0.81), "30210": (0.42, 1.43, 0.79),
 }  # fmt: skip
+
+
+# first figures of the dimension series of ISO 355 that NSK and SKF print beside them (3CC, 4CC),
+# and the contact angles that those mean [degrees and minutes]
+ANGLE_SERIES = {name: 3 for name in TAPERED} | {"32005": 4, "32006": 4, "32007": 4}
+RANGES = {3: ((13, 52), (15, 59)), 4: ((15, 59), (18, 55))}
+
+
+@pytest.mark.parametrize("name", TAPERED)
+def test_contact_angles_are_those_of_their_series_of_iso_355(name):
+    angle = degrees(catalogue.find(name).outline.contact_angle)
+    least, most = (whole + minutes / 60.0 for whole, minutes in RANGES[ANGLE_SERIES[name]])
+    assert least <= angle <= most
 
 
 @pytest.mark.parametrize("name", PRINTED)

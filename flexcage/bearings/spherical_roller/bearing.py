@@ -19,7 +19,7 @@ from flexcage.bearings.two_rows import RowFields, RowPlace
 from flexcage.cages.window.cage import WindowCage
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import typeset
-from flexcage.geometry.bearing import Spec, type_name
+from flexcage.geometry.bearing import Bearing, Spec, type_name
 from flexcage.geometry.inclined_rollers import OfInclinedRollers
 from flexcage.geometry.life.iso281 import ROLLERS, Endurance
 from flexcage.geometry.materials import MATERIALS, Material
@@ -37,7 +37,7 @@ _PLACES = "rows stand where lines of contact go through the bearing's middle: gi
 
 
 @dataclass(frozen=True, kw_only=True)
-class SphericalRollerBearing(RowFields, OfInclinedRollers):
+class SphericalRollerBearing(RowFields, OfInclinedRollers, Bearing):
     """Two rows of barrels on one sphere of the outer ring; ``roller_count`` is that of one row.
 
     The sphere's radius and where rows are follow from where the rollers are, and the clearance.

@@ -127,7 +127,7 @@ def _reasons(outline: Outline, rings: _Rings, b: SphericalRollerBearing) -> Mapp
     known = rings.inner_end is not None
     side = "inferred: the inner race ends at the inner ring's diameter at its sides (catalogue)"
     return {
-        "pitch_diameter": f"barrels on the sphere; {rings.why}",
+        "pitch_diameter": f"inferred: barrels touch the sphere; {rings.why}",
         "roller_diameter": side if known else f"inferred: about {_USUAL_SIZE:g} of (D - d)/2",
         "roller_count": f"inferred from C0: a barrel takes {share:.0%} of the distance of two",
         "roller_length": "inferred from C0: the effective length and usual chamfers",

@@ -38,7 +38,7 @@ FIRST_CONTACT = (
 
 
 @dataclass(frozen=True, kw_only=True)
-class TaperedRollerBearing(OfInclinedRollers):
+class TaperedRollerBearing(OfInclinedRollers, Bearing):
     """A single-row tapered roller bearing; displacements count from first contact.
 
     The rollers' half angle follows from their mean diameter, the pitch diameter and the contact
