@@ -161,6 +161,7 @@ def test_balls_of_rows_that_interleave_touch_each_other():
         force = reported(system, y).rib[:, 0]
         assert np.flatnonzero(force).tolist() == [3] and force[3] > 1.0
         assert np.abs(energy_misses(system, y, rows)).max() < 1e-4
+        reported(system, y)
         total, moment, size = in_space(system, y)
         np.testing.assert_allclose([*total, *moment], 0.0, atol=1e-11 * size)
     assert not moving(B3205, radial=500.0)[1].data.model.rows.meet
