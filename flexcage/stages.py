@@ -29,6 +29,7 @@ from flexcage.case.sections import (
     RingSections,
     StartSections,
 )
+from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
 from flexcage.core.progress import Silent
 from flexcage.core.timing import Stages
@@ -94,6 +95,12 @@ def cage_reduction(specs: CageSections, mesh: CageMesh) -> CageReduction | None:
 
 
 def _reduced(specs: ModesSections, mesh: CageMesh) -> CageReduction:
+    if specs.bearing.row_count > 1:
+        raise InputError(
+            "A cage for two rows is a rigid body here, without modes; those of its half are a "
+            "single-row bearing's.",
+            where="cage.model",
+        )
     return reduce_cage(
         mesh,
         cage=specs.its_cage,

@@ -12,6 +12,7 @@ from flexcage import load_case, simulate
 from flexcage.case import catalogue
 from flexcage.case.new import new_case
 from flexcage.core.errors import InputError
+from flexcage.stages import cage_modes
 
 B3205 = {
     "type": "double_row_angular_contact_ball", "bore": "25 mm", "outside_diameter": "52 mm",
@@ -114,6 +115,14 @@ def test_a_common_cage_has_the_pockets_of_both_rows():
 def test_what_a_common_cage_cannot_be(cage, changes, said):
     with pytest.raises(InputError, match=said):
         ran(cage, bearing=changes)
+
+
+def test_a_common_cage_has_no_modes():
+    case = load_case({
+        "bearing": B3205, "cage": CROWN, "mesh": {"fineness": "coarse"}, "load": {"axial": "1 kN"},
+    })  # fmt: skip
+    with pytest.raises(InputError, match="A cage for two rows is a rigid body here"):
+        cage_modes(case)
 
 
 def test_a_self_aligning_ring_that_nothing_holds_is_refused():

@@ -150,17 +150,18 @@ def test_balls_of_rows_that_interleave_touch_each_other():
     never meet."""
     _, system, start = moving(B1205, radial=500.0)
     n = B1205.ball_count
-    for side in (1.0, -1.0):
+    for side, k in ((1.0, n + 3), (-1.0, n + 2)):
         y = start.y.copy()
         balls = system.layout.q(y)["elements"]
-        x, r = balls[n + 3, 0] - balls[3, 0], balls[3, 1]
+        x, r = balls[k, 0] - balls[3, 0], balls[3, 1]
         apart = np.sqrt((B1205.ball_diameter - 1e-6) ** 2 - x**2)
-        balls[n + 3, 1] = r
-        balls[n + 3, 2] = balls[3, 2] + side * 2.0 * np.arcsin(0.5 * apart / r)
+        balls[k, 1] = r
+        balls[k, 2] = balls[3, 2] + side * 2.0 * np.arcsin(0.5 * apart / r)
         rows = system.residual(0.0, y, np.zeros_like(y))
         force = reported(system, y).rib[:, 0]
         assert np.flatnonzero(force).tolist() == [3] and force[3] > 1.0
         assert np.abs(energy_misses(system, y, rows)).max() < 1e-4
+        reported(system, y)
         total, moment, size = in_space(system, y)
         np.testing.assert_allclose([*total, *moment], 0.0, atol=1e-11 * size)
     assert not moving(B3205, radial=500.0)[1].data.model.rows.meet
