@@ -120,12 +120,12 @@ def test_qj208():
 
 
 def test_3205():
-    """The row at -x bears 2.3 times as much as the other, as the static solution has it."""
+    """The row at -x bears 4.1 times as much as the other, as the static solution has it."""
     case = load_case(EXAMPLES / "3205.toml").replace({**SHORT, "mesh.fineness": "coarse"})
     run = simulate(case)
     force = run.dataset["race_force"].sel(race="inner").mean("time").groupby("row").sum().values
     due = solve_static(load_static(EXAMPLES / "3205.toml")).elements.force[:, 0].reshape(2, -1)
-    assert force[0] / force[1] == pytest.approx(due[0].sum() / due[1].sum(), rel=0.03)
+    assert force[0] / force[1] == pytest.approx(due[0].sum() / due[1].sum(), rel=0.05)
     assert run.summary["energy_audit"] == "passed"
 
 
