@@ -49,8 +49,8 @@ def _offset(bearing: Any, aside: float) -> float:
 
 _REASONS = {
     "material": "assumption: pressed cages are of steel strip",
-    "cone_angle": "that of the rollers' axes",
-    "pitch_diameter": "that of the rollers",
+    "cone_angle": "from the rollers' axes",
+    "pitch_diameter": "from the rollers",
     "offset": f"assumption: the bars' middles are {_HEIGHT:g} times the roller's diameter over the "
     "rollers' axes, where they have the width that they need",
     "thickness": f"assumption: {_WALL:g} times the roller's diameter",
