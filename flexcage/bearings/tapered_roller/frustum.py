@@ -3,13 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import cos, pi, tan
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    import numpy as np
-
-    from flexcage.bearings.tapered_roller.bearing import TaperedRollerBearing
+from math import pi, tan
 
 
 @dataclass(frozen=True)
@@ -50,13 +44,3 @@ class Frustum:
         axial = density * 0.5 * pi * fourth
         about_middle = density * pi * (0.25 * fourth + second)
         return axial, about_middle - density * self.volume * self.centre**2
-
-
-def spheres(b: TaperedRollerBearing, slices: int) -> tuple[np.ndarray, np.ndarray]:
-    """Spheres of which the surface of a bearing's roller is the envelope: places (n,) of their
-    centres on its axis from its centre of mass, and radii (n,) less the profile's drop [m]. They
-    touch the surface in the middles of slices of the static solution."""
-    x, drop = b.profile.slices(slices, diameter=b.roller_diameter, length=b.effective_length)
-    radius = 0.5 * b.roller_diameter - x * tan(b.half_angle)
-    place = x - radius * tan(b.half_angle) - b.roller.centre
-    return place, radius / cos(b.half_angle) - drop

@@ -9,8 +9,8 @@ import numpy as np
 
 from flexcage.bearings.cylindrical_roller.model import SpottedRollers
 from flexcage.bearings.tapered_roller.bearing import TaperedRollerBearing
-from flexcage.bearings.tapered_roller.frustum import spheres
 from flexcage.bearings.tapered_roller.pocket_data import cone_pocket_data, face_frames, no_frames
+from flexcage.bearings.tapered_roller.spheres import spheres
 from flexcage.bodies.floating_frame import BodyData, no_body
 from flexcage.cages.conical.cage import ConicalCage
 from flexcage.contacts import laws

@@ -13,7 +13,7 @@ from flexcage.bearings.cylindrical_roller.model import (
     points_over,
 )
 from flexcage.bearings.tapered_roller.bearing import TaperedRollerBearing
-from flexcage.bearings.tapered_roller.frustum import spheres
+from flexcage.bearings.tapered_roller.spheres import spheres
 from flexcage.cages.conical.cage import ConicalCage
 from flexcage.cages.conical.walls import PocketWalls, pocket_walls
 from flexcage.contacts.cone_pocket import FaceFrames
