@@ -91,10 +91,12 @@ def _penetrations(pose, data, frames, i, whole, centre, q, margin, pw):
 
 
 @outlined
-def cone_pocket_contact(i, roller, cage, data, frames, laws, sl, pw, pair, mode, sums):
+def cone_pocket_contact(i, roller, cage, pockets, laws, sl, pw, pair, mode, sums):
     """Wrench of pocket i on its roller, and station forces on the cage in the axes of each face;
-    as ``pocket.pocket_contact``, with the pocket's axes in ``pw.P``."""
+    as ``pocket.pocket_contact``, with the pocket's axes in ``pw.P``; ``pockets``: their arrays and
+    the axes of their faces."""
     pose, whole, D, onset, guess = roller
+    data, frames = pockets
     Vc, wc, (q, qd, margin) = cage
     clear(pair, mode == TANGENT)
     zero(pw.normal)

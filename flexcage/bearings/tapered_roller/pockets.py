@@ -61,7 +61,7 @@ def _pocket(i, qi, Rc, Vc, modes, d, law, mode):
     cage = CageAtRoller(Vr, wr, modes)
     laws = PocketLaws(law[POCKET_LAW], law[SIDE_LAW], law[POCKET_RUBS], law[SIDE_RUBS])
     sl = fields(d.slices).row[0]
-    hit = cone_pocket_contact(i, roller, cage, data, frames, laws, sl, pw, pair, mode, sums)
+    hit = cone_pocket_contact(i, roller, cage, (data, frames), laws, sl, pw, pair, mode, sums)
     if hit:
         push_pair(i, pair.wrench, A, xyz(D), at.cage_b, d)
         push_modes(data, i, pw, work.border[modes_at(at.cage_b + RIGID, at.modes)])
