@@ -29,11 +29,13 @@ from flexcage.case.sections import (
     RingSections,
     StartSections,
 )
+from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
 from flexcage.core.progress import Silent
 from flexcage.core.timing import Stages
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.quality import check_mesh
+from flexcage.mesh.rows import in_rows
 from flexcage.modes.reduction import CageReduction
 from flexcage.modes.table import ModeTable
 from flexcage.system.begun import Start
@@ -73,7 +75,7 @@ def cage_mesh(specs: MeshSections) -> CageMesh:
         return at_hand
     mesh = build_cage_mesh(**specs.cage_shape)
     check_mesh(mesh, where=specs.mesh.file or "mesh")
-    return mesh
+    return in_rows(mesh, specs.bearing.row_places)
 
 
 _mesh_at_hand: dict[str, CageMesh] = {}  # one at most
@@ -93,6 +95,12 @@ def cage_reduction(specs: CageSections, mesh: CageMesh) -> CageReduction | None:
 
 
 def _reduced(specs: ModesSections, mesh: CageMesh) -> CageReduction:
+    if specs.bearing.row_count > 1:
+        raise InputError(
+            "A cage for two rows is a rigid body here, without modes; those of its half are a "
+            "single-row bearing's.",
+            where="cage.model",
+        )
     return reduce_cage(
         mesh,
         cage=specs.its_cage,
@@ -217,7 +225,7 @@ def _assembled(
     if seat is not None and specs.mount.kind == "fixed":
         late = DAMPED * specs.outer_ring.relaxation
         model = model._replace(outer_ring=in_housing(model.outer_ring, seat, late))
-    count = specs.bearing.element_count
+    count = specs.bearing.total_elements
     if bends:
         bending = bending_of(specs.bearing)
         data = rigid_rings(count) if rings is None else rings.data

@@ -152,8 +152,8 @@ def draw_ring(
 
 
 def write_static(case: StaticCase, solution: StaticSolution, folder: Path) -> list[Path]:
-    """Write case.toml, static.txt, static.json and static.png into a folder, and a picture of every
-    ring that bends; their paths.
+    """Write case.toml, static.txt, static.json and static.png into a folder, section.png of a
+    bearing of rows, and a picture of every ring that bends; their paths.
 
     A machine that cannot draw costs the pictures alone.
     """
@@ -173,8 +173,9 @@ def write_static_numbers(case: StaticCase, solution: StaticSolution, folder: Pat
 
 
 def draw_static(case: StaticCase, solution: StaticSolution, folder: Path) -> list[Path]:
-    """Draw static.png into a folder, and a picture of every ring that bends; their paths."""
-    from flexcage.render import static_picture
+    """Draw static.png into a folder, section.png of a bearing of rows, and a picture of every ring
+    that bends; their paths."""
+    from flexcage.render import has_section, section_picture, static_picture
 
     e = solution.elements
     picture = static_picture(
@@ -183,4 +184,6 @@ def draw_static(case: StaticCase, solution: StaticSolution, folder: Path) -> lis
     )  # fmt: skip
     rings = [draw_ring(ring, folder / f"{ring.side}_ring.png", name=case.name)
              for ring in solution.rings]  # fmt: skip
-    return [picture, *rings]
+    drawn = has_section(case.bearing)
+    cut = [section_picture(case.bearing, folder / "section.png", note=case.name)] if drawn else []
+    return [picture, *cut, *rings]

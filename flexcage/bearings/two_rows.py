@@ -11,14 +11,17 @@ from dataclasses import dataclass, fields, replace
 from math import pi, sin, sqrt
 from typing import TYPE_CHECKING, Any, ClassVar
 
+import numpy as np
+
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import mm
-from flexcage.geometry.bearing import Bearing
+from flexcage.geometry.bearing import Bearing, RowPlace
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.checks import Finding, raise_first
 
 if TYPE_CHECKING:
     from flexcage.contacts.spec import Contacts
+    from flexcage.system.statics.elements import Elements
     from flexcage.system.statics.options import StaticOptions
     from flexcage.system.statics.rows import Rows
 
@@ -27,20 +30,11 @@ _PRESSED = 0.01  # of an element's diameter: presses it hard
 ARRANGEMENTS = ("back_to_back", "face_to_face")
 
 
-@dataclass(frozen=True)
-class RowPlace:
-    """Where a row stands: its middle on the axis [m], its sense (+1: bears load towards +x as its
-    bearing alone does; -1: turned round), and the azimuth [rad] of its first element."""
-
-    place: float
-    sense: float
-    turned: float
-
-
 @dataclass(frozen=True, kw_only=True)
 class RowFields:
     """Keys of where rows stand, and what a spec says of its rows, for the functions below."""
 
+    row_count: ClassVar[int] = ROWS
     # power of i, the number of rows, in ISO 281's rating, and Weibull's e
     row_power: ClassVar[float]
     weibull: ClassVar[float]
@@ -58,6 +52,10 @@ class RowFields:
         @property
         def late(self) -> float:
             """Axial displacement [m] in a row's sense before it bears, from the middle."""
+
+    @property
+    def one_row(self) -> Any:
+        return self.row
 
     row_distance: float = quantity("mm", doc="axial distance of the two rows' middles", above=0.0)
     staggered: bool = option(
@@ -83,12 +81,17 @@ def single(bearing: Bearing, kind: type[Bearing], **changes: Any) -> Any:
 def rows_of(bearing: Any, *, speed: float, contacts: Contacts, options: StaticOptions) -> Rows:
     """Elements of both rows; a row has its share of the dynamic rating."""
     from flexcage.bearings.family import statics_of
-    from flexcage.system.statics.rows import Row, Rows
 
     row = bearing.row
     rating = (options.dynamic_rating or bearing.dynamic_rating) / ROWS**bearing.row_power
     own = replace(options, dynamic_rating=rating)
-    elements = statics_of(row)(row, speed=speed, contacts=contacts, options=own)
+    return rows_from(bearing, statics_of(row)(row, speed=speed, contacts=contacts, options=own))
+
+
+def rows_from(bearing: Any, elements: Elements) -> Rows:
+    """Both rows of a bearing, from the elements of one."""
+    from flexcage.system.statics.rows import Row, Rows
+
     rows = tuple(
         Row(elements, p.place, sense=p.sense, late=bearing.late, turned=p.turned)
         for p in bearing.row_places
@@ -110,9 +113,16 @@ def dynamic_rating(bearing: Any) -> float:
 
 
 def check(bearing: Any, cage: Cage | None, defects: Sequence[Any]) -> None:
-    """Raise InputError for the first impossibility in a row, or in where both are."""
-    bearing.row.check()
+    """Raise InputError for the first impossibility in a row, in where both are, or in the cage."""
+    bearing.row.check(cage)
     check_rows(bearing)
+    check_cage(bearing, cage, defects)
+
+
+def check_cage(bearing: Bearing, cage: Cage | None, defects: Sequence[Any]) -> None:
+    """Raise InputError for the first impossibility in one cage for both rows."""
+    if cage is not None:
+        raise_first(_find_in_cage(bearing, cage, defects))
 
 
 def check_rows(bearing: Any) -> None:
@@ -137,3 +147,31 @@ def _find_in_rows(b: Any) -> Iterator[Finding]:
             f"bearing.row_distance is {mm(b.row_distance)}, so {b.element}s reach out of a bearing "
             f"{mm(b.width)} wide; give {mm(max(b.width - b.element_length, 0.0))} or less.",
         )
+
+
+def _find_in_cage(b: Any, cage: Cage, defects: Sequence[Any]) -> Iterator[Finding]:
+    """``cage`` is that of one row: a common one is both, held together."""
+    if defects:
+        yield (
+            "defects",
+            f"A defect, or uneven spacing of pockets, of a cage for two rows of {b.element}s is "
+            "not computed; leave it out.",
+        )
+    if b.element == "ball" and cage.guidance != "ball":
+        yield (
+            "cage.guidance",
+            f"cage.guidance is '{cage.guidance}', but a cage for two rows of balls is guided by "
+            'these; give "ball".',
+        )
+    if cage.axial_width - cage.axial_reach > 0.5 * b.row_distance:
+        yield (
+            "cage.width",
+            f"cage.width is {mm(cage.width)}, so the halves of a cage for both rows overlap, which "
+            f"are {mm(b.row_distance)} apart (bearing.row_distance); give a narrower cage.",
+        )
+
+
+def row_labels(count: int) -> dict[str, Any]:
+    """Coordinate of a run's elements, ``count`` a row: the row of each, 0 at -x."""
+    rows = np.repeat(np.arange(ROWS), count)
+    return {"row": (("element",), rows, {"long_name": "row of the element; 0 at -x"})}

@@ -20,7 +20,7 @@ from flexcage.core.units import parse
 from flexcage.geometry.bearing import OTHER_DESIGNS
 from flexcage.geometry.full_complement import CAGED, FULL
 from flexcage.geometry.inference import Outline
-from flexcage.geometry.other_kinds import kind_of
+from flexcage.geometry.other_kinds import inferred_kind, kind_of
 
 # columns of ratings that only some types of bearing have: the key, and the option of "flexcage new"
 _OPTIONS = {
@@ -117,6 +117,8 @@ def _not_found(text: str, found: Designation | None) -> InputError:
     name = plain(text)
     uncaged = _UNCAGED.fullmatch(name)
     if not found:
+        if own := inferred_kind(text):
+            return _of_another_series(text, *own)
         if design := _of_a_design(name):
             return _refused(
                 text,
@@ -147,6 +149,20 @@ def _not_found(text: str, found: Designation | None) -> InputError:
     return _refused(
         text, f"is not in the catalogue; {_nearest(found.bare if found else name)}, and any other "
         f"bearing is described by {way}",
+    )  # fmt: skip
+
+
+def _of_another_series(text: str, kind: str, own: str) -> InputError:
+    """The sentence on a bearing of a kind and a type of which the catalogue has other series."""
+    here = {name: row for name, row in series().items() if row["type"] == own}
+    more = _wanted(next(iter(here.values())))
+    options = " ".join(
+        f'--{name} "..."' for name in ("bore", "outside", "width", "dynamic", "static")
+    )
+    further = "".join(f' {option} "..."' for _, option in more)
+    return _refused(
+        text, f"is {kind}, of which the catalogue has the series {', '.join(here)}; describe it by "
+        f"flexcage new {plain(text)} --type {own} {options}{further}",
     )  # fmt: skip
 
 

@@ -76,6 +76,16 @@ def _check_whether_caged(case: CaseSections) -> None:
         )
 
 
+def _find_in_rows(case: CaseSections) -> Iterator[Finding]:
+    """A common cage that bends."""
+    if case.bearing.row_count > 1 and case.cage_model == "flexible":
+        yield (
+            "cage.model",
+            "cage.model is 'flexible', but one cage for two rows is computed as a rigid body "
+            'alone; give model = "rigid" in [cage].',
+        )
+
+
 def _find_without_cage(case: CaseSections) -> Iterator[Finding]:
     """What a case without a cage cannot have."""
     for i, spec in enumerate(case.constraints):
@@ -216,7 +226,7 @@ def _find_in_speed(case: CaseSections) -> Iterator[Finding]:
 def _find_in_held_motions(case: CaseSections) -> Iterator[Finding]:
     """Loads along motions of the inner ring that are held, and motions that cannot be free."""
     bears, tilt, spring = _bears_axially(case), case.load.tilt == "free", case.load.tilt_stiffness
-    own = case.bearing.carries_axial_load  # without a shaft's springs
+    own = case.bearing.carries_axial_load and not case.bearing.self_aligning  # without springs
     if tilt and spring == 0.0 and not own:
         yield (
             "load.tilt",
@@ -648,4 +658,4 @@ _OF_EVERY_CASE = (
     find_in_life,
     find_in_heat,
 )
-_OF_CAGES = (_find_in_mesh, _find_in_temperature, _find_in_land)
+_OF_CAGES = (_find_in_rows, _find_in_mesh, _find_in_temperature, _find_in_land)

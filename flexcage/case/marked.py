@@ -21,11 +21,13 @@ def of_mark(proposed: ProposedCage, marked: MarkedCage) -> ProposedCage:
     )
 
 
-def unmarked(outline: Outline, marked: MarkedCage) -> Outline:
-    """An outline without the cage that a mark names, as it has no place; the sentence says so."""
+def unmarked(outline: Outline, marked: MarkedCage, *, caged: bool = True) -> Outline:
+    """An outline without the cage that a mark names, as it has no place; the sentence says so, and
+    whether there is another (``caged``)."""
+    instead = "cage is of a common form" if caged else "case is without one"
     told = tuple(
         f"{marked.mark}: {marked.meaning}; none of usual proportions has a place here, so that the "
-        "cage is of a common form."
+        f"{instead}."
         if text.startswith(f"{marked.mark}: ")
         else text
         for text in outline.left_out

@@ -9,6 +9,8 @@ from dataclasses import dataclass, fields, replace
 from math import ceil, floor, log10
 from typing import Any
 
+import numpy as np
+
 from flexcage.bearings.family import in_motion, inference_of
 from flexcage.cages.cage_type import proposal_of
 from flexcage.case.case import load_case
@@ -73,9 +75,9 @@ def new_case(outline: Outline, source: str, *, cage: str | None = None) -> NewCa
         return _without_cage(outline, source, inference, cage)
     candidates = [rolling(c) for c in ranked(inference.candidates(outline))]
     _check_cage(cage, candidates[0].bearing.element)
-    if not in_motion(BEARING_TYPES[outline.type]):
-        return _standing(outline, source, candidates)
     usual = inference.cages[outline.type]
+    if not (in_motion(BEARING_TYPES[outline.type]) and (cage or usual)):
+        return _as_it_is(outline, source, candidates)
     wanted = [None, outline.cage] if outline.cage and cage in (None, outline.cage.type) else [None]
     refused = None
     while wanted:
@@ -105,7 +107,7 @@ def _with_cage(
     propose, refused = proposal_of(marked.type if marked else cage), None
     for candidate in candidates:
         try:
-            proposed = propose(candidate.bearing)
+            proposed = _in_its_row(propose(candidate.bearing.one_row), candidate.bearing)
             if marked:
                 proposed = of_mark(proposed, marked)
             text = _text(outline, source, candidate, candidates, proposed)
@@ -154,10 +156,14 @@ def _without_cage(outline: Outline, source: str, inference: Inference, cage: str
     )  # fmt: skip
 
 
-def _standing(outline: Outline, source: str, candidates: Sequence[Candidate]) -> NewCase:
-    """The case of a bearing of which there is a static solution alone."""
+def _as_it_is(outline: Outline, source: str, candidates: Sequence[Candidate]) -> NewCase:
+    """The case of a bearing of which there is a static solution alone, or that no usual cage
+    fits."""
+    if outline.cage:
+        outline = unmarked(outline, outline.cage, caged=False)
     text = _text(outline, source, candidates[0], candidates, None)
-    load_static(text)
+    runs = in_motion(BEARING_TYPES[outline.type])
+    (load_case if runs else load_static)(text)
     return NewCase(
         name=case_name(outline), text=text, outline=outline, source=source, chosen=candidates[0],
         candidates=candidates,
@@ -247,13 +253,13 @@ def _text(
     name, bearing = case_name(outline), chosen.bearing
     head = [f"# {in_one_line(line)}" for line in _findings(outline, source, chosen, candidates)]
     given = _reasons_of_outline(outline)
-    load = "axial" if outline.contact_angle else "radial"
+    load = "axial" if outline.contact_angle and not bearing.self_aligning else "radial"
     runs = in_motion(type(bearing))
     caged = proposed is not None or not runs
     speed = _speed(bearing.pitch_diameter, caged=caged)
     sections = [
         ("bearing", _entries(bearing, {"type": "", "designation": "", **given, **chosen.reasons})),
-        ("cage", _cage(proposed)),
+        ("cage", _cage(proposed, bearing, full=outline.complement != CAGED)),
         ("drive", [(
             "speed", f'"{speed} rpm"',
             "assumption: moderate" if caged else "assumption: moderate without a cage",
@@ -280,11 +286,28 @@ def _text(
     return "\n".join(lines) + "\n"
 
 
-def _cage(proposed: ProposedCage | None) -> list[tuple[str, str, str]]:
+def _in_its_row(proposed: ProposedCage, bearing: Bearing) -> ProposedCage:
+    """The cage of a row, narrower where those of two rows would overlap."""
+    cage = proposed.cage
+    apart = float(np.ptp([row.place for row in bearing.row_places]))
+    if bearing.row_count == 1 or 2.0 * (cage.axial_width - cage.axial_reach) <= apart:
+        return proposed
+    reasons = {**proposed.reasons, "width": "assumption: the cages of both rows meet in the middle"}
+    narrower: dict[str, Any] = {"width": round(apart, 6)}  # a key of all that two rows may have
+    return replace(proposed, cage=replace(cage, **narrower), reasons=reasons)
+
+
+def _cage(
+    proposed: ProposedCage | None, bearing: Bearing, *, full: bool
+) -> list[tuple[str, str, str]]:
     if proposed is None:
-        return [("model", f'"{NO_CAGE}"', "full complement: elements touch the next ones")]
+        why = "full complement" if full else "assumption: none of usual proportions has room"
+        return [("model", f'"{NO_CAGE}"', f"{why}: elements touch the next ones")]
+    model = ("model", '"flexible"', "")
+    if bearing.row_count > 1:
+        model = ("model", '"rigid"', "one cage for both rows, each half as follows")
     return [
-        ("model", '"flexible"', ""),
+        model,
         *_entries(proposed.cage, {"type": "", **proposed.reasons}),
     ]
 

@@ -33,7 +33,7 @@ from flexcage.contacts.slices import (
 )
 from flexcage.contacts.state import clear
 from flexcage.core.jit import outlined, part, zero
-from flexcage.core.vectors import RIGID, row, xyz
+from flexcage.core.vectors import RIGID, combine, row, xyz
 
 
 @outlined
@@ -59,10 +59,11 @@ def pocket_contact(i, roller, cage, data, laws, sl, pw, pair, mode, sums):
         zero(pw.point_T)
     # depths before the walls' residual deflection, then its coordinates b (``condensation``)
     centre = xyz(D)
+    middle = combine(centre, -data.place[i], row(pw.G, 0))
     zero(pw.push)
     searching = True
     while searching:
-        if not penetrations(pose, data, i, Rw, centre, q, margin, pw):
+        if not penetrations(pose, data, i, Rw, middle, q, margin, pw):
             return False
         searching = False
         if data.soft != 0:
@@ -75,10 +76,10 @@ def pocket_contact(i, roller, cage, data, laws, sl, pw, pair, mode, sums):
     rel, spin = relative_motion(pose, xyz(Vc), xyz(wc), centre)
     any_contact = False
     for f in range(FACES):
-        if pw.near[f] != 0 and _press(data, f, sl, pw):
+        if pw.near[f] != 0 and press_face(data, f, sl, pw):
             any_contact = True
             place, motion = (pose, Rw, centre[1]), (rel, spin, qd, onset[f])
-            _face(i, f, place, motion, data, laws, (sl, pw), pair, mode, sums)
+            face_forces(i, f, place, motion, data, laws, (sl, pw), pair, mode, sums)
     if mode == TANGENT and any_contact:
         if data.soft != 0:  # b is condensed out of K
             soften(RIGID + data.phi_max.shape[0], pw)
@@ -90,7 +91,7 @@ def pocket_contact(i, roller, cage, data, laws, sl, pw, pair, mode, sums):
 
 
 @part
-def _press(data, f, sl, pw):
+def press_face(data, f, sl, pw):
     """Penetration sl.d of face f after all deflection; returns whether the roller touches."""
     span = span_of(pw, f)
     if data.soft != 0:
@@ -105,7 +106,7 @@ def _press(data, f, sl, pw):
 
 
 @part
-def _face(i, f, place, motion, data, laws, work, pair, mode, sums):
+def face_forces(i, f, place, motion, data, laws, work, pair, mode, sums):
     """Forces of face f, from the penetrations sl.d.
 
     ``place`` of the roller: pose, radius, distance of its centre from the bearing's axis;

@@ -112,7 +112,8 @@ def lever_of_slice(pose, data, Rw, f, k, pw):
     sgn, a = 1.0 if f % 2 == 0 else -1.0, row(pose.axis, 0)
     if f < SIDES:
         return combine(times(data.s[k], a), sgn * (Rw - data.drop[k]), row(pw.G, 2))
-    r = combine(times(sgn * data.half_roller, a), data.points[k, 0], row(pose.axis, 1))
+    r = times(sgn * data.half_roller + data.middle, a)
+    r = combine(r, data.points[k, 0], row(pose.axis, 1))
     return combine(r, data.points[k, 1], row(pose.axis, 2))
 
 

@@ -34,11 +34,13 @@ class PocketData(NamedTuple):
     """All pockets of a cage: faces 0 front, 1 rear, 2 side +x, 3 side -x."""
 
     azimuth: np.ndarray  # (Z, 2) cos, sin of pocket azimuths in the cage frame
+    place: np.ndarray  # (Z,) of their middles along the cage's axis
     half: np.ndarray  # (2,) half width, half length of a pocket
     s: np.ndarray  # (ns,) slice positions along the roller
     drop: np.ndarray  # (ns,)
     points: np.ndarray  # (np, 2) points of a roller's end: along its two transverse axes
     half_roller: float  # half of the roller's overall length
+    middle: float  # place of mid-length on the roller's axis, from its centre
     x0: np.ndarray  # (4,) first station
     dx: np.ndarray  # (4,) station spacing
     offset: np.ndarray  # (Z, 4, no) stress-free outward offset, on a grid of its own
@@ -143,8 +145,8 @@ def no_pockets(count: int, half_roller: float) -> PocketData:
     """Those of so many rollers, half as long [m] as given, without a cage: nowhere is a wall."""
     z, n, m = np.zeros, count, N_LOCAL
     return PocketData(
-        azimuth=z((n, 2)), half=np.full(2, np.inf), s=z(0), drop=z(0), points=z((0, 2)),
-        half_roller=half_roller, x0=z(4), dx=z(4), offset=z((n, 4, 1)), grid=z((2, 4)),
+        azimuth=z((n, 2)), place=z(n), half=np.full(2, np.inf), s=z(0), drop=z(0), points=z((0, 2)),
+        half_roller=half_roller, middle=0.0, x0=z(4), dx=z(4), offset=z((n, 4, 1)), grid=z((2, 4)),
         low=z((n, 4)), bent=z((n, 4), np.int64), phi=z((n, 4, 0, 3, 0)), phi_max=z(0),
         rows=z((n, 4, 3, 0, 0)), soft=0, res=z((n, 4, 0, m)), res_max=z((n, 4, m)), most=z((n, m)),
         own=z((n, 4, 0, N_FACE)), own_max=z((n, 4, N_FACE)), turn=z((n, 4, N_FACE, m)),
@@ -290,7 +292,7 @@ def penetrations(pose, data, i, Rw, D, q, margin, pw):
     ax = (dot(row(pw.G, 0), a0), dot(row(pw.G, 0), a1), dot(row(pw.G, 0), a2))
     at = (dot(row(pw.G, 2), a0), dot(row(pw.G, 2), a1), dot(row(pw.G, 2), a2))
     reach = abs(data.s[data.s.shape[0] - 1])
-    touch, n_st = False, data.phi.shape[2]
+    touch = False
     for f in range(FACES):
         sgn = 1.0 if f % 2 == 0 else -1.0
         if f < SIDES:
@@ -298,42 +300,52 @@ def penetrations(pose, data, i, Rw, D, q, margin, pw):
         else:
             tilt = (abs(ax[1]) + abs(ax[2])) * Rw
             gap = data.half[1] + data.low[i, f] - sgn * X - tilt - data.half_roller
-        # three bounds of the depth, each tighter and dearer: extent, profile, stations
-        pw.near[f] = 0
-        pw.deep[f] = pw.rest[f] = 2.0 * margin - gap
-        if pw.deep[f] + pw.push[f] <= 0.0:
-            continue
-        face, n = pw.face[f], points_of_face(data, f)
-        if f < SIDES:
-            _lay_crossbeam(data, f, sgn, X, T + sgn * (Rw - data.half[0]), ax[0], at[0], face)
-        else:
-            _lay_side_beam(data, f, sgn, sgn * X - data.half[1], T, ax, at, face)
-        bare = _block_by_block(n, face)
-        pw.deep[f] = pw.rest[f] = bare - data.low[i, f] + 2.0 * margin
-        if pw.deep[f] + pw.push[f] <= 0.0:
-            continue
-        across, along = (2, 0) if f < SIDES else (0, 2)
-        read_stations(data, i, f, q, across, pw.wall[across])
-        inward = most_of_curve(n_st, -sgn, pw.wall[across]) - data.low[i, f]
-        pw.deep[f] = pw.rest[f] = bare + inward
-        if pw.deep[f] + pw.push[f] <= 0.0:
-            continue
-        pw.near[f] = 1
-        _find_span(n, f, inward, face, pw)
-        span = span_of(pw, f)
-        read_stations(data, i, f, q, along, pw.wall[along])
-        _follow(span, n_st, pw.wall[along], data.dx[f], face)
-        _weigh(span, n_st, data.dx[f], face)
-        read_values(span, face.w, face, pw.wall[across], face.read)
-        read_values(span, face.ws, face, pw.wall[across], face.slope)
-        for k in range(span[0], span[1]):  # outwards by sgn u: less depth, and a slope
-            face.d0[k] -= sgn * face.read[k]
-            face.slope[k] *= sgn
-        if data.bent[i, f] != 0:
-            _add_offset(data, i, f, span, face)
-        pw.deep[f] = largest(span, face.d0)
-        touch = touch or pw.deep[f] > 0.0
+        if face_penetrations(data, i, f, gap, (Rw, X, T, ax, at), q, margin, pw):
+            touch = True
     return touch
+
+
+@part
+def face_penetrations(data, i, f, gap, place, q, margin, pw):
+    """The same of face f, from which the roller is ``gap`` away at the least if no station moves;
+    ``place`` of the roller: its radius, and its centre and axes along the pocket's x and psi."""
+    Rw, X, T, ax, at = place
+    sgn, n_st = 1.0 if f % 2 == 0 else -1.0, data.phi.shape[2]
+    # three bounds of the depth, each tighter and dearer: extent, profile, stations
+    pw.near[f] = 0
+    pw.deep[f] = pw.rest[f] = 2.0 * margin - gap
+    if pw.deep[f] + pw.push[f] <= 0.0:
+        return False
+    face, n = pw.face[f], points_of_face(data, f)
+    if f < SIDES:
+        _lay_crossbeam(data, f, sgn, X, T + sgn * (Rw - data.half[0]), ax[0], at[0], face)
+    else:
+        _lay_side_beam(data, f, sgn, sgn * X - data.half[1], T, ax, at, face)
+    bare = _block_by_block(n, face)
+    pw.deep[f] = pw.rest[f] = bare - data.low[i, f] + 2.0 * margin
+    if pw.deep[f] + pw.push[f] <= 0.0:
+        return False
+    across, along = (2, 0) if f < SIDES else (0, 2)
+    read_stations(data, i, f, q, across, pw.wall[across])
+    inward = most_of_curve(n_st, -sgn, pw.wall[across]) - data.low[i, f]
+    pw.deep[f] = pw.rest[f] = bare + inward
+    if pw.deep[f] + pw.push[f] <= 0.0:
+        return False
+    pw.near[f] = 1
+    _find_span(n, f, inward, face, pw)
+    span = span_of(pw, f)
+    read_stations(data, i, f, q, along, pw.wall[along])
+    _follow(span, n_st, pw.wall[along], data.dx[f], face)
+    _weigh(span, n_st, data.dx[f], face)
+    read_values(span, face.w, face, pw.wall[across], face.read)
+    read_values(span, face.ws, face, pw.wall[across], face.slope)
+    for k in range(span[0], span[1]):  # outwards by sgn u: less depth, and a slope
+        face.d0[k] -= sgn * face.read[k]
+        face.slope[k] *= sgn
+    if data.bent[i, f] != 0:
+        _add_offset(data, i, f, span, face)
+    pw.deep[f] = largest(span, face.d0)
+    return pw.deep[f] > 0.0
 
 
 @part
@@ -403,7 +415,7 @@ def _lay_crossbeam(data, f, sgn, X, T, ax, at, face):
 @part(fastmath=VECTORISED)
 def _lay_side_beam(data, f, sgn, X, T, ax, at, face):
     """The same for the points of the roller's end on a side beam."""
-    h = sgn * data.half_roller
+    h = sgn * data.half_roller + data.middle
     for k in range(data.points.shape[0]):
         y, z = data.points[k, 0], data.points[k, 1]
         face.x[k] = (T + h * at[0] + y * at[1] + z * at[2] - data.x0[f]) / data.dx[f]

@@ -47,10 +47,11 @@ class RibData(NamedTuple):
 
 
 @part
-def rib_contact(pose, ring, data, onset, laws, sl, pair, mode, sums):
+def rib_contact(pose, ring, data, middle, onset, laws, sl, pair, mode, sums):
     """Wrench on the roller from the ribs of one ring (0: +x, 1: -x), met at speeds ``onset`` (2,).
 
-    ``ring`` (4, 3): the partner as ``race.RaceWork`` has it.
+    ``ring`` (4, 3): the partner as ``race.RaceWork`` has it; ``middle`` [m] between the ribs, from
+    its centre.
 
     ``sums``: normal at +x and -x, elastic energy, damping power, friction power.
     """
@@ -59,7 +60,7 @@ def rib_contact(pose, ring, data, onset, laws, sl, pair, mode, sums):
         zero(sums)
     centre, ring_axis, ring_spin = row(ring, CENTRE), row(ring, AXIS), row(ring, SPIN)
     a0, a1, a2 = row(pose.axis, 0), row(pose.axis, 1), row(pose.axis, 2)
-    along = dot(centre, ring_axis)  # in F, from the ring's centre
+    along = dot(centre, ring_axis) - middle  # in F, from the middle between the ribs
     tilt = abs(a0[1] - ring_axis[1]) + abs(a0[2] - ring_axis[2])
     play = data.half_gap - data.half_roller
     if abs(along) + 2.0 * tilt * data.half_roller < play:  # a bound: no point reaches a rib

@@ -21,7 +21,7 @@ from flexcage.fem.dissection import dissect
 from flexcage.fem.fronts import Elimination
 from flexcage.fem.model import FEModel, assemble, boundary_of, triangle_shapes
 from flexcage.fem.sectors import edges_of
-from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.mesh.cage_mesh import FACE_AXES, CageMesh
 
 _PAIRS = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
 _CORNERS = ((0, 4, 5, 6), (4, 1, 7, 8), (5, 7, 2, 9), (6, 8, 9, 3))  # children at the corners
@@ -121,7 +121,8 @@ def submodel(
 
     own = {name: divided(of_part(triangles)) for name, triangles in model.groups.items()}
     groups = {name: triangles for name, triangles in own.items() if len(triangles)}
-    mesh = CageMesh(points, fine_tets, MappingProxyType(groups))
+    info = {name: model.info[name] for name in (FACE_AXES,) if name in model.info}
+    mesh = CageMesh(points, fine_tets, MappingProxyType(groups), info=MappingProxyType(info))
     fine = assemble(mesh, model.material, order=model.order)
     cell, corners = boundary_of(tets)
     faces = np.sort(tets[cell[:, None], corners], axis=1)

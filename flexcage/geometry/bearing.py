@@ -44,6 +44,17 @@ OTHER_DESIGNS: Parts[str] = Parts(
 )
 
 
+@dataclass(frozen=True)
+class RowPlace:
+    """Where a row of elements stands: its middle on the axis [m], its sense (+1: it bears load
+    towards +x as its bearing alone does; -1: turned round), and the azimuth [rad] of its first
+    element."""
+
+    place: float = 0.0
+    sense: float = 1.0
+    turned: float = 0.0
+
+
 @dataclass(frozen=True, kw_only=True)
 class RingLand:
     """What the dimensions of cage and ring say of the cage's two lands, one at each end.
@@ -106,6 +117,8 @@ class Bearing:
     sliced: ClassVar[tuple[str, ...]] = ("race", "pocket")  # those cut in slices or strips
     endurance: ClassVar[Endurance | None] = None  # constants of its modified life, ISO 281
     carries_axial_load: ClassVar[bool] = False  # in a run, with the ring free axially and in tilt
+    self_aligning: ClassVar[bool] = False  # does its inner ring tilt freely?
+    row_count: ClassVar[int] = 1  # rows of elements between its rings, alike
     elsewhere: ClassVar[Mapping[str, str]] = {}  # patterns of keys that it has not: what there is
 
     type: str = type_name("cylindrical_roller")
@@ -151,8 +164,29 @@ class Bearing:
 
     @property
     def element_count(self) -> int:
-        """Z."""
+        """Z, of a row."""
         raise self._lacks("element_count")
+
+    @property
+    def total_elements(self) -> int:
+        """Elements of all rows, those of one row after the other's."""
+        return self.row_count * self.element_count
+
+    @property
+    def one_row(self) -> Bearing:
+        """The bearing of one of its rows alone."""
+        return self
+
+    @property
+    def row_places(self) -> tuple[RowPlace, ...]:
+        """Where its rows stand."""
+        return (RowPlace(),)
+
+    @property
+    def element_azimuths(self) -> np.ndarray:
+        """Azimuths (n,) [rad] of all elements, those of a row evenly spaced."""
+        even = 2.0 * np.pi * np.arange(self.element_count) / self.element_count
+        return np.concatenate([even + row.turned for row in self.row_places])
 
     @property
     def element_diameter(self) -> float:

@@ -65,15 +65,18 @@ class Cage:
     # do rivets of ``rivet_diameter`` between its pockets hold two halves together?
     riveted: ClassVar[bool] = False
 
-    if TYPE_CHECKING:  # of those that are riveted
+    if TYPE_CHECKING:  # of those that are riveted, and what every type has as a field or says
 
         @property
         def rivet_diameter(self) -> float: ...
+        @property
+        def bore(self) -> float: ...
+        @property
+        def outside_diameter(self) -> float: ...
+        @property
+        def width(self) -> float: ...
 
     material: Material = option(MATERIALS["brass"], doc="cage material (a name or its values)")
-    bore: float = quantity("mm", doc="inside diameter", above=0.0)
-    outside_diameter: float = quantity("mm", doc="outside diameter", above=0.0)
-    width: float = quantity("mm", doc="axial width", above=0.0)
     temperature: float | None = quantity(
         "degC", None, above=0.0,
         doc="temperature of the cage, from which modulus and damping follow; room temperature "
@@ -115,6 +118,10 @@ class Cage:
     def pocket_size(self) -> float:
         """Width [m] of a pocket around the cage; NaN where its type does not say."""
         return nan
+
+    def pocket_clearance(self, bearing: HeldElements) -> float:
+        """Clearance [m] of an element in its pocket around the cage; NaN likewise."""
+        return self.pocket_size - bearing.element_diameter
 
     @property
     def pocket_reach(self) -> float:
@@ -171,16 +178,33 @@ class Cage:
 
     def impossible(self, pocket_count: int) -> Iterator[Objection]:
         """Dimensions that leave no body."""
-        if self.outside_diameter <= self.bore:
-            yield "outside_diameter", f"must exceed its bore, {describe(self.bore, 'mm')}"
+        return iter(())
 
     def check(self, pocket_count: int) -> None:
         """Raise InputError for the first of its dimensions that leaves no body."""
         for name, what in self.impossible(pocket_count):
             value, where = getattr(self, name), f"cage.{name}"
-            raise InputError(f"{where}, {describe(value, 'mm')}, {what}.", where=where, value=value)
+            raise InputError(f"{where}, {self.described(name)}, {what}.", where=where, value=value)
         material_at(self.material, self.temperature)
+
+    def described(self, name: str) -> str:
+        """One of its lengths in mm, or of its angles in degrees."""
+        angle = self.__dataclass_fields__[name].metadata["unit"] == "deg"
+        return describe(getattr(self, name), "deg" if angle else "mm")
 
     def obstructions(self, bearing: HeldElements) -> Iterator[Objection]:
         """What leaves no room in it for a bearing's elements, or for itself between them."""
         return iter(())
+
+
+@dataclass(frozen=True, kw_only=True)
+class CylindricalCage(Cage):
+    """A cage made of a hollow cylinder, which gives its dimensions."""
+
+    bore: float = quantity("mm", doc="inside diameter", above=0.0)
+    outside_diameter: float = quantity("mm", doc="outside diameter", above=0.0)
+    width: float = quantity("mm", doc="axial width", above=0.0)
+
+    def impossible(self, pocket_count: int) -> Iterator[Objection]:
+        if self.outside_diameter <= self.bore:
+            yield "outside_diameter", f"must exceed its bore, {describe(self.bore, 'mm')}"

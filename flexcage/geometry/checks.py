@@ -30,7 +30,7 @@ def greatest_speed(bearing: Bearing) -> float:
     if mass == 0.0:
         return inf
     pitch, diameter = bearing.pitch_diameter, bearing.element_diameter
-    most = 5.0 * OVERLOAD * bearing.static_rating / bearing.element_count
+    most = 5.0 * OVERLOAD * bearing.static_rating / bearing.total_elements
     return 2.0 / (1.0 - diameter / pitch) * sqrt(most / (0.5 * mass * pitch))
 
 
@@ -45,7 +45,7 @@ def check_fit(bearing: Bearing, cage: Cage, around: Iterator[Finding]) -> None:
     ``around``: what leaves it no place."""
     raise_first(around)
     raise_first(
-        (f"cage.{name}", f"cage.{name} is {describe(getattr(cage, name), 'mm')}, {what}.")
+        (f"cage.{name}", f"cage.{name} is {cage.described(name)}, {what}.")
         for name, what in cage.obstructions(bearing)
     )
     raise_first(_find_in_unbalance(cage))

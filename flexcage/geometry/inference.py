@@ -160,7 +160,8 @@ class Candidate:
 @dataclass(frozen=True, kw_only=True)
 class Inference:
     """How a family infers internal geometry: ``candidates`` for an outline, in any order, and the
-    type of cage that its types of bearing commonly have, "" of those that do not run; ``count``:
+    type of cage that its types of bearing commonly have, "" of those that do not run or have none
+    of usual proportions; ``count``:
     key of the number of elements; ``full``: candidates for ratings of a full complement, None where
     these tell none."""
 

@@ -43,7 +43,6 @@ _DESIGNATIONS = {
 }
 _NAMES = {
     r".*thrust.*": "thrust bearings",
-    r"(spherical|barrel).*": "spherical roller bearings",
     r"(double|two|multi|four).?row.*|duplex.*": "such bearings of several rows",
     r"(cross|toroid|carb|insert|slewing|linear|plain|journal|magnetic|slide).*": "such bearings",
 }
@@ -88,22 +87,42 @@ def kind_of(designation: str) -> str:
             "each in its place of a machine's [[bearings]], or one with its share of the load and "
             "the preload in load.axial"
         )
+    kind = _named_so(designation, name)
+    return _here(kind) if kind else ""
+
+
+def _named_so(designation: str, name: str) -> str:
+    """The kind of a bearing with a designation, ``name`` without separators; or ""."""
     two_rows = _FOUR_DIGITS.fullmatch(designation.strip())
     for pattern, kind in _DESIGNATIONS.items():
         if re.fullmatch(pattern, designation.strip()[:4] if two_rows else name):
-            return _here(kind)
+            return kind
     return ""
 
 
-def _here(kind: str) -> str:
-    """What there is of a kind, "a needle roller bearing"; empty where its inside is inferred."""
+def inferred_kind(designation: str) -> tuple[str, str] | None:
+    """Kind and type of a bearing with a designation whose inside is inferred; None of others."""
+    kind = _named_so(designation, re.sub(r"[\s_/-]", "", designation.upper()))
+    name, inferred = _type_of(kind)
+    return (kind, name) if inferred else None
+
+
+def _type_of(kind: str) -> tuple[str, bool]:
+    """The type of a kind, "a needle roller bearing", or "", and whether its inside is inferred."""
     for family in FAMILIES.values():
         for spec in family.types:
             if kind == f"a {spec.kind}":
-                name = spec.__dataclass_fields__["type"].default
-                inferred = family.inside is not None and name in family.inside().cages
-                return "" if inferred else f"is {kind}; {_AS_TYPE.format(name)}"
-    return f"is {kind}; {_HAS}"
+                name = str(spec.__dataclass_fields__["type"].default)
+                return name, family.inside is not None and name in family.inside().cages
+    return "", False
+
+
+def _here(kind: str) -> str:
+    """What there is of a kind; empty where its inside is inferred."""
+    name, inferred = _type_of(kind)
+    if inferred:
+        return ""
+    return f"is {kind}; {_AS_TYPE.format(name) if name else _HAS}"
 
 
 def named_kind(name: str) -> str:

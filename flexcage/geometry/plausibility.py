@@ -25,7 +25,7 @@ def implausible_geometry(bearing: Bearing, cage: Cage) -> Iterator[RunWarning]:
                 f"The thickness of the cage's {name} is only {_mm(thickness)}, for {element}s of "
                 f"{_mm(diameter)}: check the dimensions.",
             )
-    clearance = cage.pocket_size - diameter
+    clearance = cage.pocket_clearance(bearing)
     if clearance > _LOOSE * diameter:
         yield RunWarning(
             KEY,

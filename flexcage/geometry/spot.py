@@ -53,11 +53,11 @@ def find_in_spots(
     most, deepest, element = _WIDEST * diameter, _DEEPEST * diameter, b.element
     for key, numbers in named.items():
         for number in numbers:
-            if not 0 <= number < b.element_count:
+            if not 0 <= number < b.total_elements:
                 yield (
                     f"{where}.{key}",
                     f"{where}.{key} is {number}, but the {element}s are numbered 0 to "
-                    f"{b.element_count - 1}.",
+                    f"{b.total_elements - 1}.",
                 )
     if spot.size > most:
         yield (

@@ -13,6 +13,7 @@ import numpy as np
 POCKET_GROUPS = ("front", "rear", "side+x", "side-x", "fillet")  # of window cages
 WALL_GROUPS = ("wall",)  # of cages with round pockets
 RING_GROUPS = ("land_inner", "land_outer", "end+x", "end-x")
+FACE_AXES = "face_axes"  # in a mesh's ``info``
 _WALL = re.compile(r"pocket\d+_wall")
 
 
@@ -53,7 +54,8 @@ class CageMesh:
     vertices a defect moved. Where cracks and missing rivets doubled vertices, the copies come last,
     and ``doubled`` says of which. Of a mesh from a file that repeats, ``following`` (n_points,) is
     the vertex that has a vertex's place in the next sector, and ``sector_tets`` (Z, n) the cells of
-    all sectors. ``defects`` lists what each defect delivered.
+    all sectors. ``defects`` lists what each defect delivered. ``face_axes`` says how pockets' faces
+    lie in cages that are no cylinders (``modes.pockets.FaceAxes``).
     """
 
     points: np.ndarray  # (n_points, 3) float64

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import NamedTuple
+
 import numpy as np
 import scipy.sparse as sp
 
 from flexcage.core.errors import InputError
 from flexcage.fem.model import FEModel
+from flexcage.mesh.cage_mesh import FACE_AXES
 from flexcage.modes.basis import FACES
 
 # of the residual vectors by modes.attachments; an interface has room for all of them
@@ -34,10 +39,40 @@ def pocket_frames(pocket_count: int) -> np.ndarray:
     return frames_at(2.0 * np.pi * np.arange(pocket_count) / max(pocket_count, 1))
 
 
-def face_coordinate(points: np.ndarray, pocket: int, face: int, pocket_count: int) -> np.ndarray:
-    """Coordinate along a face (n,) [m]: x on crossbeam faces, tangential t on side beams."""
-    axis = 0 if face < 2 else 2
-    return points @ pocket_frame(pocket, pocket_count)[axis]
+class FaceAxes(NamedTuple):
+    """How a pocket's faces lie in its frame (x, r, psi): outward ``normal`` (4, 3), and the unit
+    vectors ``along`` (4, 3) which the coordinates on them follow, from ``start`` (4,) [m]."""
+
+    normal: np.ndarray
+    along: np.ndarray
+    start: np.ndarray
+
+
+#: Of crossbeam faces along x and side-beam faces along the tangent.
+STRAIGHT = FaceAxes(NORMALS, np.eye(3)[[0, 0, 2, 2]], np.zeros(4))
+
+
+def with_face_axes(info: Mapping[str, object], axes: FaceAxes) -> Mapping[str, object]:
+    """A mesh's ``info`` that says how its pockets' faces lie, where they are not ``STRAIGHT``."""
+    rows = np.column_stack([*axes[:2], axes.start])
+    return MappingProxyType({**info, FACE_AXES: tuple(tuple(map(float, row)) for row in rows)})
+
+
+def face_axes(model: FEModel) -> FaceAxes:
+    """How the faces of a model's pockets lie."""
+    rows = model.info.get(FACE_AXES)
+    if rows is None:
+        return STRAIGHT
+    table = np.array(rows, float)
+    return FaceAxes(table[:, :3], table[:, 3:6], table[:, 6])
+
+
+def face_coordinate(
+    points: np.ndarray, pocket: int, face: int, pocket_count: int, axes: FaceAxes = STRAIGHT
+) -> np.ndarray:
+    """Coordinate along a face (n,) [m]: along the roller on crossbeam faces, tangential t on side
+    beams."""
+    return points @ (axes.along[face] @ pocket_frame(pocket, pocket_count)) - axes.start[face]
 
 
 def hat_weights(
@@ -45,8 +80,10 @@ def hat_weights(
 ) -> sp.csr_matrix:
     """Integrals (n_st, N) [m^2] over a face, as far as the model has it, of the stations' hats."""
 
+    axes = face_axes(model)
+
     def hats(points: np.ndarray) -> np.ndarray:
-        return _hats(face_coordinate(points, pocket, face, pocket_count), stations)
+        return _hats(face_coordinate(points, pocket, face, pocket_count, axes), stations)
 
     return model.face_weights(model.group(face_group(pocket, face)), hats)
 
@@ -90,11 +127,9 @@ def sparse_pocket_loads(
     model: FEModel, pocket: int, pocket_count: int, *, count: int = LOADS_PER_POCKET
 ) -> sp.csc_matrix:
     """The first ``count`` of them, sparse: few nodes of the cage are on a pocket's faces."""
-    frame = pocket_frame(pocket, pocket_count)
+    normals = face_axes(model).normal @ pocket_frame(pocket, pocket_count)
     faces = [
-        sp.kron(
-            _load_weights(model, pocket, face, pocket_count), NORMALS[face : face + 1] @ frame
-        ).tocsr()
+        sp.kron(_load_weights(model, pocket, face, pocket_count), normals[face : face + 1]).tocsr()
         for face in range(len(FACES))
     ]
     rows = [face[:2] for face in faces] + [face[2:] for face in faces]
@@ -102,12 +137,12 @@ def sparse_pocket_loads(
 
 
 def _load_weights(model: FEModel, pocket: int, face: int, pocket_count: int) -> sp.csr_matrix:
-    triangles = model.group(face_group(pocket, face))
-    ends = face_coordinate(model.points[np.unique(triangles)], pocket, face, pocket_count)
+    triangles, axes = model.group(face_group(pocket, face)), face_axes(model)
+    ends = face_coordinate(model.points[np.unique(triangles)], pocket, face, pocket_count, axes)
     middle, half = 0.5 * (ends.max() + ends.min()), 0.5 * np.ptp(ends)
 
     def patterns(points: np.ndarray) -> np.ndarray:
-        x = (face_coordinate(points, pocket, face, pocket_count) - middle) / half
+        x = (face_coordinate(points, pocket, face, pocket_count, axes) - middle) / half
         return np.stack([np.ones_like(x), x, 1.5 * x**2 - 0.5])
 
     weights = model.face_weights(triangles, patterns)

@@ -12,6 +12,8 @@ from flexcage.render.look import Look as Look
 from flexcage.render.mesh_pictures import mesh_picture as mesh_picture
 from flexcage.render.mode_pictures import mode_sheet as mode_sheet
 from flexcage.render.ring_pictures import ring_picture as ring_picture
+from flexcage.render.section_pictures import has_section as has_section
+from flexcage.render.section_pictures import section_picture as section_picture
 from flexcage.render.signal_pictures import signal_picture as signal_picture
 from flexcage.render.spectra import spectra_picture as spectra_picture
 from flexcage.render.static_pictures import static_picture as static_picture

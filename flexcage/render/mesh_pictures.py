@@ -161,7 +161,7 @@ def _sound_outline(
     ax, picture: Picture, mesh: CageMesh, pocket: int, defects: Sequence[CageDefect]
 ) -> None:
     """Outer rim of a sound pocket, turned to where this one would be, as dashed lines."""
-    touched = {p for d in defects for p, _ in d.changes(mesh.pocket_count)}
+    touched = {p for d in defects for p in d.pockets(mesh.pocket_count)}
     sound = next((k for k in range(mesh.pocket_count) if k not in touched), None)
     if sound is None:
         return
@@ -179,11 +179,14 @@ def _sound_outline(
 
 def _rim(mesh: CageMesh, pocket: int) -> np.ndarray:
     """Edges (n, 2) of a pocket's wall on the outside of the cage."""
-    names = [f"pocket{pocket}_{face}" for face in pocket_groups(mesh.groups)]
+    parts = pocket_groups(mesh.groups)
+    names = [f"pocket{pocket}_{face}" for face in parts]
     triangles = np.concatenate([mesh.groups[n] for n in names if n in mesh.groups])
     edges = np.concatenate([triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])])
     edges, count = np.unique(np.sort(edges, axis=1), axis=0, return_counts=True)
     edges = edges[count == 1]
+    if parts == POCKET_GROUPS:
+        return edges[np.isin(edges, mesh.groups["land_outer"]).all(axis=1)]
     r = np.hypot(mesh.points[:, 1], mesh.points[:, 2])
     return edges[r[edges].min(axis=1) > 0.5 * (r.min() + r.max())]
 

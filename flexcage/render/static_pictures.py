@@ -12,6 +12,7 @@ from flexcage.render import sheet
 
 _SIDE, _TOP, _LEFT, _GAP = 560, 230, 100, 190
 _NAMES = ("inner race", "outer race")
+_MARKS = ("o", "^")  # of elements of one row and another
 
 
 def static_picture(
@@ -73,13 +74,18 @@ def _panel(figure: Any, k: int, label: str) -> Any:
 
 
 def _curves(ax: Any, azimuth: np.ndarray, values: np.ndarray) -> None:
-    """One curve a race; the outer dashed, so that one shows where both are alike."""
+    """One curve a race and row; the outer dashed, so that one shows where both are alike."""
     most, least = float(np.nanmax(values)), min(float(np.nanmin(values)), 0.0)
-    ends = np.append(azimuth, azimuth[0] + 2.0 * pi)
-    styles = ((sheet.BLUE, "o-", 6.5, 1.4), (sheet.VERMILION, "o--", 3.5, 1.1))
-    for side, (colour, form, size, width) in enumerate(styles):
-        ring = np.append(values[:, side], values[0, side])
-        ax.plot(ends, ring, form, color=colour, ms=size, lw=width, label=_NAMES[side])
+    starts = [0, *(np.flatnonzero(np.diff(azimuth) < 0.0) + 1), len(azimuth)]
+    for row, (first, last) in enumerate(zip(starts[:-1], starts[1:])):
+        place = "" if len(starts) == 2 else f", row {row + 1}"
+        own = np.append(np.arange(first, last), first)
+        ends = azimuth[own] + np.append(np.zeros(last - first), 2.0 * pi)
+        styles = ((sheet.BLUE, f"{_MARKS[row]}-", 6.5, 1.4),
+                  (sheet.VERMILION, f"{_MARKS[row]}--", 3.5, 1.1))  # fmt: skip
+        for side, (colour, form, size, width) in enumerate(styles):
+            label = f"{_NAMES[side]}{place}"
+            ax.plot(ends, values[own, side], form, color=colour, ms=size, lw=width, label=label)
     ax.set_ylim(1.08 * least, 1.08 * most if most > 0.0 else 1.0)
     ax.spines["polar"].set_edgecolor(sheet.HAIR)
 

@@ -101,6 +101,16 @@ def of_cage(ds: xarray.Dataset, name: str) -> xarray.DataArray:
     return ds[name]
 
 
+def following_in_row(ds: xarray.Dataset) -> tuple[np.ndarray, np.ndarray]:
+    """Of every element the next one of its row, and the turn [rad] by which the first is ahead of
+    the last."""
+    numbers = np.arange(ds.sizes["element"])
+    row = ds["row"].values if "row" in ds.coords else 0 * numbers
+    last = np.append(row[1:] != row[:-1], True)
+    first = np.array([numbers[row == k][0] for k in row])
+    return np.where(last, first, numbers + 1), np.where(last, 2.0 * np.pi, 0.0)
+
+
 def carrier(ds: xarray.Dataset) -> str:
     """What goes round with the elements, in words: "cage", or without one "balls", "rollers"."""
     return "cage" if caged(ds) else f"{element(ds)}s"

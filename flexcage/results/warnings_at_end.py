@@ -95,7 +95,7 @@ def _overloaded(o: RunOutcome) -> Iterator[RunWarning]:
     b = o.bearing
     angle = b.nominal_contact_angle
     share = sin(angle) if b.is_thrust else cos(angle) / _STRIBECK
-    allowed = b.static_rating * b.stress_share / (b.element_count * share)
+    allowed = b.static_rating * b.stress_share / (b.total_elements * share)
     largest = max((o.number("race_force_inner"), o.number("race_force_outer")), default=0.0)
     if largest > allowed:
         yield RunWarning(
@@ -117,7 +117,7 @@ def _thrown_off(o: RunOutcome) -> Iterator[RunWarning]:
     if len(radius) < 2 * _PARTS:
         return
     means = np.array([values.mean() for values in np.array_split(radius, _PARTS)])
-    play = 0.5 * (o.its_cage.pocket_size - o.bearing.element_diameter)
+    play = 0.5 * o.its_cage.pocket_clearance(o.bearing)
     allowed = _BEYOND_POCKETS * play
     if (np.diff(means) > 0.0).all() and means[-1] > max(_GROWN * means[0], allowed):
         begin, end = (float(part["time"][k]) * 1e3 for k in (0, -1))

@@ -137,7 +137,7 @@ def expected_seconds(case: Case) -> float | None:
     pace = _kept().get(_kind(case))
     if not isinstance(pace, (int, float)) or not pace > 0.0:
         return None
-    return pace * case.bearing.element_count * case.solver.duration
+    return pace * case.bearing.total_elements * case.solver.duration
 
 
 def note_pace(case: Case, seconds: float, solved: float) -> None:
@@ -147,7 +147,7 @@ def note_pace(case: Case, seconds: float, solved: float) -> None:
     with suppress(OSError):  # it is a help, no more
         others = {k: v for k, v in _kept().items() if k != _kind(case)}
         table = dict([*others.items()][-_MOST:])
-        table[_kind(case)] = seconds / (case.bearing.element_count * solved)
+        table[_kind(case)] = seconds / (case.bearing.total_elements * solved)
         cache_root().mkdir(parents=True, exist_ok=True)
         replace(_file(), json.dumps(table).encode())
 

@@ -23,7 +23,7 @@ from flexcage.fem.sectors import edges_of
 from flexcage.fem.submodel import Submodel, row_of, submodel
 from flexcage.modes.basis import FACES
 from flexcage.modes.lands import LANDS
-from flexcage.modes.pockets import face_group, hat_weights, pocket_frame
+from flexcage.modes.pockets import STRAIGHT, face_axes, face_group, hat_weights, pocket_frame
 from flexcage.stress.operators import VertexStress
 
 log = logging.getLogger(__name__)
@@ -121,8 +121,9 @@ def find_corners(model: FEModel, pocket_count: int) -> list[Corner]:
     """Corners with a fillet and what lies within reach of each."""
     corners = []
     middles = model.points[model.tets].mean(axis=1)
-    thickness = np.ptp(np.hypot(model.points[:, 1], model.points[:, 2]))
-    for (pocket, along, across), fillet in corner_fillets(model, pocket_count).items():
+    fillets = corner_fillets(model, pocket_count)
+    thickness = _thickness(model, fillets, pocket_count)
+    for (pocket, along, across), fillet in fillets.items():
         mirrored = np.diag([along, 1.0, across]) @ pocket_frame(pocket, pocket_count)
         faces = [model.points[model.group(face_group(pocket, f))] @ mirrored.T for f in range(4)]
         width = max(np.ptp(faces[2][..., 2]), np.ptp(faces[3][..., 2]))
@@ -145,6 +146,18 @@ def find_corners(model: FEModel, pocket_count: int) -> list[Corner]:
             )
         )  # fmt: skip
     return corners
+
+
+def _thickness(
+    model: FEModel, fillets: dict[tuple[int, int, int], np.ndarray], pocket_count: int
+) -> float:
+    """Thickness [m] of the cage's wall: of one that lies askew, along a fillet."""
+    axes = face_axes(model)
+    if axes is STRAIGHT or not fillets:
+        return float(np.ptp(np.hypot(model.points[:, 1], model.points[:, 2])))
+    (pocket, *_), fillet = next(iter(fillets.items()))
+    outwards = np.cross(axes.along[2], axes.along[0]) @ pocket_frame(pocket, pocket_count)
+    return float(np.ptp(model.points[fillet] @ outwards))
 
 
 def rounded(model: FEModel, pocket: int) -> bool:

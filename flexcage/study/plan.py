@@ -103,7 +103,7 @@ def make_plan(study: Study) -> Plan:
 
 def _counts(case: Case) -> dict[str, int]:
     """Lengths of the dimensions of a case's results that are counted from 0."""
-    count = case.bearing.element_count
+    count = case.bearing.total_elements
     own = own_variables(family_of(case.bearing)).sizes
     return {"element": count, "pocket": count, "slice": case.contacts.pocket.slices, **own}
 

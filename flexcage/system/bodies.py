@@ -186,13 +186,13 @@ def bodies_of(
     speed = _speed_table(drive)
     steps = 0.5 * np.diff(speed[0]) * (speed[1, 1:] + speed[1, :-1])
     rho = lubricant.density * lubricant.oil_fraction
-    azimuth = load.gravity_direction
+    azimuth, skin = load.gravity_direction, bearing.row_count * _skin(cage)
     return Bodies(
         element=element,
         radius=radius,
         pitch=0.5 * bearing.pitch_diameter,
         gravity=load.gravity * np.array([0.0, np.cos(azimuth), np.sin(azimuth)]),
-        drag=0.5 * rho * np.array([lubricant.drag_coefficient * area, _skin(cage)]),
+        drag=0.5 * rho * np.array([lubricant.drag_coefficient * area, skin]),
         by_shaft=int(drive.kind == "shaft"),
         shaft=np.array([drive.shaft_stiffness, drive.shaft_damping]),
         speed=speed,

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from flexcage.bodies.floating_frame import BodyData
 from flexcage.contacts.evaluation import REPORT
 from flexcage.contacts.land import DRY, FILM, NONE, LandData
 from flexcage.core.errors import InputError, RunFailed
@@ -103,3 +104,16 @@ def clear_of_land(land: LandData, layout: Layout, y: np.ndarray) -> bool:
     radius, psi = q["elements"][:, 1], q["elements"][:, 2].copy()
     q["elements"][:, 2] += (moved[1] * np.cos(psi) - moved[0] * np.sin(psi)) / radius
     return True
+
+
+def strained_by_rotation(body: BodyData, speed: float) -> np.ndarray:
+    """Modal coordinates (n,) at which a cage that only rotates about its axis at ``speed`` [rad/s]
+    rests; from none it would ring.
+
+    Its modes feel w^2 int phi.p dm across the axis, with p the deformed place.
+    """
+    load = (body.S[1] + body.S[2]) * speed**2
+    stiffness = body.kff - (body.SS[:, 1] + body.SS[:, 2]) * speed**2
+    if body.gff.size:
+        stiffness = stiffness + body.gff * speed**2
+    return np.linalg.solve(stiffness, load)

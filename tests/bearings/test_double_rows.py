@@ -288,6 +288,17 @@ def test_a_3205_has_nine_balls_of_five_sixteenths_a_row():
     assert (bearing.ball_count, bearing.ball_diameter) == (9, pytest.approx(7.938e-3, abs=1e-6))
 
 
+def test_a_3210_may_have_the_balls_of_a_3209():
+    """SKF rates both alike: so many of the same size on another circle."""
+    three, ten = (
+        new_case(entry.outline, entry.source)
+        for entry in (catalogue.find("3209"), catalogue.find("3210"))
+    )
+    b = three.chosen.bearing
+    like = [(c.bearing.ball_count, c.bearing.ball_diameter) for c in ten.candidates]
+    assert (b.ball_count, b.ball_diameter) in like
+
+
 def test_a_moment_is_refused_where_nothing_resists_a_tilt():
     said = "load.moment_z is 5 N\\*m, but a self-aligning .* give the shaft's load.tilt_stiffness"
     with pytest.raises(flexcage.InputError, match=said):

@@ -9,7 +9,7 @@ import pytest
 from qj208 import INSIDE, QJ208, solved
 from scipy.optimize import brentq
 
-from flexcage.bearings import bending_of, losses_of, sections_of, statics_of
+from flexcage.bearings import bending_of, sections_of, statics_of
 from flexcage.bearings.ball.angular_contact import AngularContactBallBearing
 from flexcage.bearings.four_point.inference import INFERENCE
 from flexcage.case import catalogue
@@ -235,8 +235,6 @@ def test_two_rows_rate_balls_of_the_catalogue_s_size(number):
 
 
 def test_what_it_has_not_is_refused_in_a_sentence():
-    with pytest.raises(InputError, match="'four_point_contact' has no losses of a static solution"):
-        losses_of(QJ208)
     with pytest.raises(InputError, match="rings of a four-point contact ball bearing do not bend"):
         bending_of(QJ208)
     assert sections_of(QJ208) is None

@@ -302,7 +302,7 @@ def test_axial_loads_that_change_have_a_limit_too(name):
             ["single-row: give", 'a full complement has model = "none" in [cage]'],
         ),
         (
-            '[bearing]\ntype = "spherical_roller"',
+            '[bearing]\ntype = "toroidal"',
             ["cylindrical_roller", "angular_contact_ball, deep_groove_ball"],
         ),
         (PRESET + 'design = "NP"', ["bearing.design 'NP' is not known", "NU"]),

@@ -1,11 +1,12 @@
 """Tapered roller bearings of the catalogue: what is inferred, and what is said of others."""
 
-from math import radians, tan
+import re
+from math import asin, degrees, pi, radians, sin, tan
 
 import pytest
 
 from flexcage import load_static
-from flexcage.case import catalogue
+from flexcage.case import catalogue, load_case
 from flexcage.case.new import new_case
 from flexcage.cli import main
 from flexcage.core.errors import InputError
@@ -21,6 +22,19 @@ PRINTED = {
     "32008": (0.38, 1.58, 0.87), "32009": (0.39, 1.53, 0.84), "32010": (0.42, 1.42, 0.78),
     "30205": (0.37, 1.60, 0.88), "30209": (0.40, 1.48, 0.81), "30210": (0.42, 1.43, 0.79),
 }  # fmt: skip
+
+
+# first figures of the dimension series of ISO 355 that NSK and SKF print beside them (3CC, 4CC),
+# and the contact angles that those mean [degrees and minutes]
+ANGLE_SERIES = {name: 3 for name in TAPERED} | {"32005": 4, "32006": 4, "32007": 4}
+RANGES = {3: ((13, 52), (15, 59)), 4: ((15, 59), (18, 55))}
+
+
+@pytest.mark.parametrize("name", TAPERED)
+def test_contact_angles_are_those_of_their_series_of_iso_355(name):
+    angle = degrees(catalogue.find(name).outline.contact_angle)
+    least, most = (whole + minutes / 60.0 for whole, minutes in RANGES[ANGLE_SERIES[name]])
+    assert least <= angle <= most
 
 
 @pytest.mark.parametrize("name", PRINTED)
@@ -56,12 +70,27 @@ def test_a_written_case_is_solved(tmp_path, capsys):
         capsys.readouterr().out.split()
     )
     text = file.read_text("utf-8")
-    assert "# flexcage static 30205.toml" in text and "[cage]" not in text
+    assert "# flexcage run 30205.toml" in text and 'type = "conical"' in text
     assert 'outer_width = "13 mm"' in text and "# given: ISO 355" in text
     found = solve_static(load_static(file))
     assert found.ratings.static == pytest.approx(34e3, rel=1e-3)
-    assert main(["run", str(file)]) == 2
-    assert "motion of tapered roller bearings is not computed yet" in capsys.readouterr().err
+    assert load_case(file).cage.pocket_length > found_length(text)
+
+
+def found_length(text):
+    """The rollers' length [m] in a case's text."""
+    return 1e-3 * float(re.search(r'roller_length = "([0-9.]+) mm"', text)[1])
+
+
+def test_a_full_complement_of_tapered_rollers_fills_the_circle(tmp_path):
+    """One more than the cage leaves room for: cones touch where sin(pi/Z) = sin(eps)/sin(beta)."""
+    file = tmp_path / "full.toml"
+    assert main(["new", "30205", "--cage", "none", "-o", str(file)]) == 0
+    case = load_case(file)
+    b = case.bearing
+    assert case.cage is None and b.roller_count == 18
+    most = pi / asin(sin(b.half_angle) / sin(b.axis_angle))
+    assert b.roller_count < most < b.roller_count + 1
 
 
 @pytest.mark.parametrize(
@@ -87,7 +116,6 @@ def test_makers_names_of_tapered_bearings_are_read(name, number, notes):
         (["30207 C3"], "'C3' names a group of radial clearance"),
         (["30312"], "'30312' is not in the catalogue"),
         (["30205", "--cage", "window"], "no cage of type 'window' for tapered rollers"),
-        (["30205", "--cage", "none"], "not computed yet"),
         (["LM11949"], "a tapered roller bearing in inches"),
         (["4205"], "a double row deep groove ball bearing"),
     ],

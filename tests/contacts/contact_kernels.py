@@ -59,7 +59,7 @@ def _race(pose, side, Rw, theta, onset, law, mu, rw, pair, mode, sums):
 
 def _rib(pose, ring, data, onset, law, sl, pair, mode, sums):
     laws = Laws(law[0], law[1])
-    return rib_contact(pose, ring, data, onset, laws, sl.row[0], pair, mode, sums)
+    return rib_contact(pose, ring, data, 0.0, onset, laws, sl.row[0], pair, mode, sums)
 
 
 def _pocket(i, roller, cage, data, law, sl, pw, pair, mode, sums):

@@ -131,7 +131,9 @@ def test_every_part_of_a_case_is_in_spec():
     found = {cls for case in (Case, StaticCase) for cls in parts(case)}
     assert len(found) > 35
     there = [getattr(spec, name) for name in spec.__all__]
-    assert not [cls for cls in found if cls not in there]
+    lacking = [cls for cls in found if cls not in there]
+    # parts that types share are no types: others are derived from them, and none has their name
+    assert not [cls for cls in lacking if not cls.__subclasses__() or "type" in vars(cls)]
 
 
 def test_all_that_registers_is_in_register():

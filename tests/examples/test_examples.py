@@ -24,6 +24,8 @@ TESTED = {
     "ex10_signals",
     "ex11_diagnosis",
     "ex12_tapered",
+    "ex13_tapered_run",
+    "ex14_spherical",
 }
 
 
@@ -60,6 +62,19 @@ def test_tapered_example(capsys):
     assert still == pytest.approx(module.wedge()) and fast > 1.1 * still
     assert module.loaded() == 15
     assert "the rib bears" in capsys.readouterr().out
+
+
+def test_spherical_example(capsys):
+    module = example("ex14_spherical")
+    both, few = module.main(0.0, module.limit())
+    assert both == pytest.approx(0.5, abs=0.01) and few < 0.02
+    assert "the row at -x bears" in capsys.readouterr().out
+
+
+def test_tapered_rollers_run(capsys):
+    ratio, skew = example("ex13_tapered_run").main(**{"solver.duration": "2 ms"})
+    assert ratio == pytest.approx(1.0, abs=0.01) and skew > 0.0
+    assert "askew" in capsys.readouterr().out
 
 
 def test_static(capsys):
@@ -102,6 +117,16 @@ def test_qj208():
             found = float(arcs.sel(race=race, arc=side))
             assert found == pytest.approx(due[f"{race} {side}"].max(), rel=0.04)
     assert run.summary["share_on_4_contacts"] > 0.5 and run.summary["energy_audit"] == "passed"
+
+
+def test_3205():
+    """The row at -x bears 4.1 times as much as the other, as the static solution has it."""
+    case = load_case(EXAMPLES / "3205.toml").replace({**SHORT, "mesh.fineness": "coarse"})
+    run = simulate(case)
+    force = run.dataset["race_force"].sel(race="inner").mean("time").groupby("row").sum().values
+    due = solve_static(load_static(EXAMPLES / "3205.toml")).elements.force[:, 0].reshape(2, -1)
+    assert force[0] / force[1] == pytest.approx(due[0].sum() / due[1].sum(), rel=0.05)
+    assert run.summary["energy_audit"] == "passed"
 
 
 def test_hk2020():

@@ -67,7 +67,7 @@ def forces_on_bodies(bearing, y, yd):
 
     From the residual's momentum rows with accelerations zero; the known inertia terms are taken
     out with formulas of their own; those of the outer ring, of which some rows are held, from its
-    rows of the border. Bodies: 22 rollers, inner ring, outer ring, cage.
+    rows of the border. Bodies: rollers, inner ring, outer ring, cage if there is one.
     """
     layout, still = bearing.layout, yd.copy()
     for part in layout.u(still).values():
@@ -94,9 +94,10 @@ def forces_on_bodies(bearing, y, yd):
     out.append((force, ring[3:] + np.cross(q["inner"][:3], force)))
     outer = layout.border(bearing.data.work.scratch.border)["outer"]
     out.append((outer[:3], outer[3:] + np.cross(q["outer"][:3], outer[:3])))
-    A = Rotation.from_quat(q["quaternion"], scalar_first=True).as_matrix()
-    force = -r["cage"]
-    out.append((force, A @ -r["omega"] + np.cross(q["cage"], force)))
+    if "cage" in q:
+        A = Rotation.from_quat(q["quaternion"], scalar_first=True).as_matrix()
+        force = -r["cage"]
+        out.append((force, A @ -r["omega"] + np.cross(q["cage"], force)))
     return np.array(out)
 
 

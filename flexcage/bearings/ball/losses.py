@@ -7,8 +7,10 @@ forces along its path, and moments with the gyroscopic one. Tractions are those 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import cos, pi, sin
+from typing import Any
 
 import numpy as np
 
@@ -24,12 +26,14 @@ from flexcage.system.statics.losses import (
 from flexcage.system.statics.state import StaticState
 
 _SIDES = (-1.0, 1.0)  # of inner and outer race, outwards
+Touch = tuple[int, float, float]  # race (0: inner), force [N] and contact angle [rad]
 
 
 @dataclass(frozen=True)
 class _Contact:
-    """A ball on one race: its force, and the race's strips. In F = (e_x, e_r, e_psi)."""
+    """A ball on one arc of a race (0: inner): its force, and strips. In F = (e_x, e_r, e_psi)."""
 
+    race: int
     force: float
     normal: np.ndarray  # (3,) from the ball through the contact
     across: np.ndarray  # (3,) along the long axis
@@ -67,7 +71,7 @@ class _Contact:
 class _Ball:
     """A ball between both races: what acts on it at given speeds."""
 
-    contacts: tuple[_Contact, _Contact]
+    contacts: tuple[_Contact, ...]
     radius: float  # of its orbit
     inertia: float
     drag: float  # over speed squared
@@ -85,25 +89,41 @@ class _Ball:
 
     def unbalance(self, speeds: np.ndarray, smooth: float = 0.0) -> np.ndarray:
         """Moments and force (4,) over what friction of 1 would give."""
-        (f_i, m_i, *_), (f_o, m_o, *_) = self.acts(speeds, smooth)
+        acts = self.acts(speeds, smooth)
+        force, moment = sum(a[0] for a in acts), sum(a[1] for a in acts)
         turn, orbit = speeds[:3], speeds[3]
         gyroscopic = self.inertia * orbit * np.array([0.0, turn[2], -turn[1]])
         v = self.radius * orbit
         scale = max(c.force for c in self.contacts)
-        arm = float(np.linalg.norm(self.contacts[1].points[0]))
-        moments = (m_i + m_o + gyroscopic) / (scale * arm)
-        return np.array([*moments, (f_i + f_o - self.drag * abs(v) * v) / scale])
+        arm = float(np.linalg.norm(self.contacts[-1].points[0]))
+        moments = (moment + gyroscopic) / (scale * arm)
+        return np.array([*moments, (force - self.drag * abs(v) * v) / scale])
 
     def torque(self, speeds: np.ndarray) -> float:
         """Torque [N m] that the ball takes from the inner ring."""
-        force, moment, *_ = self.acts(speeds)[0]
-        return self.radius * force + float(moment[0])
+        own = [a for a, c in zip(self.acts(speeds), self.contacts) if c.race == 0]
+        return sum(self.radius * a[0] + float(a[1][0]) for a in own)
+
+    def lost(self, speeds: np.ndarray) -> np.ndarray:
+        """Losses [W] of sliding and of rolling (2, 2) on inner and outer race."""
+        lost = np.zeros((2, 2))
+        for act, contact in zip(self.acts(speeds), self.contacts):
+            lost[:, contact.race] += act[2:]
+        return lost
+
+
+def on_races(bearing: Any, solution: StaticState, k: int) -> list[Touch]:
+    """Where ball ``k`` touches races of one arc."""
+    e = solution.elements
+    return [(race, float(e.force[k, race]), float(e.angle[k, race])) for race in (0, 1)]
 
 
 def ball_losses(
-    bearing: BallBearing, solution: StaticState, *, contacts: Contacts, lubricant: Lubricant
-) -> Losses:
-    """Losses of a ball bearing's static solution, whose rings may be of another temperature's."""
+    bearing: BallBearing, solution: StaticState, *, contacts: Contacts, lubricant: Lubricant,
+    touches: Callable[[Any, StaticState, int], list[Touch]] = on_races,
+) -> Losses:  # fmt: skip
+    """Losses of a ball bearing's static solution, whose rings may be of another temperature's;
+    ``touches`` says where a ball bears."""
     e, speed = solution.elements, solution.speed
     ratio = friction_over_speed(contacts.race.friction)
     drag = 0.5 * lubricant.density * lubricant.oil_fraction * lubricant.drag_coefficient
@@ -112,47 +132,46 @@ def ball_losses(
     sliding, rolling, torque, dragged = np.zeros(2), np.zeros(2), 0.0, 0.0
     found = []
     for k in loaded:
-        ball = _ball(bearing, solution, int(k), contacts, lubricant, drag, ratio)
+        at = touches(bearing, solution, int(k))
+        sides = _contacts(bearing, solution, at, contacts, lubricant)
+        radius = _orbit_radius(bearing, solution, int(k))
+        ball = _Ball(sides, radius, bearing.ball_inertia, drag, ratio)
         first = _rolling(bearing, solution, int(k), ball.radius)
         speeds = settled_speeds(ball.unbalance, first, abs(speed))
-        acts = ball.acts(speeds)
-        sliding += [a[2] for a in acts]
-        rolling += [a[3] for a in acts]
+        lost = ball.lost(speeds)
+        sliding += lost[0]
+        rolling += lost[1]
         torque += ball.torque(speeds)
         dragged += drag * abs(ball.radius * speeds[3]) ** 3
         found.append((speeds[3], np.linalg.norm(speeds[:3])))
     orbit, _ = np.mean(found, axis=0)
     for k in np.setdiff1d(np.arange(len(e.force)), loaded):
-        lost, in_oil = _unloaded(bearing, float(e.force[k, 1]), orbit, lubricant, drag)
-        rolling[1] += lost
+        rolled, in_oil = _unloaded(bearing, float(e.force[k, 1]), orbit, lubricant, drag)
+        rolling[1] += rolled
         dragged += in_oil
-        torque += (lost + in_oil) / speed
+        torque += (rolled + in_oil) / speed
     return summed({"drag": dragged}, sliding, rolling, drive=torque, speeds=np.array(found))
 
 
-def _ball(
-    bearing: BallBearing, solution: StaticState, k: int, contacts: Contacts, lubricant: Lubricant,
-    drag: float, ratio: Ratio,
-) -> _Ball:  # fmt: skip
+def _contacts(
+    bearing: BallBearing, solution: StaticState, touches: list[Touch], contacts: Contacts,
+    lubricant: Lubricant,
+) -> tuple[_Contact, ...]:  # fmt: skip
     from flexcage.bearings.ball.model import groove_of  # its kernels take seconds to load
 
-    e, sides = solution.elements, []
-    radius = 0.5 * bearing.ball_diameter
-    for race, (side, inner) in enumerate(zip(_SIDES, (True, False))):
-        groove = groove_of(bearing, contacts, lubricant, inner=inner)
-        force, angle = float(e.force[k, race]), float(e.angle[k, race])
+    sides, radius = [], 0.5 * bearing.ball_diameter
+    for race, force, angle in touches:
+        groove, side = groove_of(bearing, contacts, lubricant, inner=race == 0), _SIDES[race]
         normal = side * np.array([sin(angle), cos(angle), 0.0])
         across = side * np.array([cos(angle), -sin(angle), 0.0])
         depth = (force / bearing.contacts[race].stiffness) ** (2.0 / 3.0)
         s = groove.strip * groove.long * force ** (1.0 / 3.0)
         height = radius - 0.5 * depth - 0.5 * groove.bend * s * s
         sides.append(_Contact(
-            force, normal, across, np.outer(height, normal) + np.outer(s, across), groove.share,
-            groove.rolling, solution.speed if inner else 0.0,
+            race, force, normal, across, np.outer(height, normal) + np.outer(s, across),
+            groove.share, groove.rolling, 0.0 if race else solution.speed,
         ))  # fmt: skip
-    return _Ball(
-        (sides[0], sides[1]), _orbit_radius(bearing, solution, k), bearing.ball_inertia, drag, ratio
-    )
+    return tuple(sides)
 
 
 def _orbit_radius(bearing: BallBearing, solution: StaticState, k: int) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import pi
 from typing import Any, NamedTuple
 
@@ -119,11 +120,32 @@ def pocket_contact(bearing: BallBearing, cage: BallCage, radius: float) -> Point
     return PointContact(rolling=along, transverse=fit, modulus=modulus)
 
 
+def in_all_rows(interface: BallCageInterface, bearing: BallBearing) -> BallCageInterface:
+    """The interface of a row's cage as one of the pockets of all rows; itself of a single row. That
+    of a second row is its mirror image."""
+    if bearing.row_count == 1:
+        return interface
+    rows = []
+    for row, mirrored in zip(bearing.row_places, _mirrored(bearing)):
+        along = np.array([-1.0 if mirrored else 1.0, 1.0])
+        rows.append(interface.centre * along + np.array([row.place, 0.0]))
+    alike = {
+        name: np.concatenate([getattr(interface, name)] * bearing.row_count)
+        for name in ("modes", "local", "radius", "slot")
+    }
+    return replace(interface, centre=np.concatenate(rows), **alike)
+
+
+def _mirrored(bearing: BallBearing) -> list[bool]:
+    """Is the cage of each row its mirror image? That of the second one."""
+    return [k > 0 for k in range(bearing.row_count)]
+
+
 def _pockets(
     bearing: BallBearing, cage: BallCage, contacts: Contacts, interface: BallCageInterface
 ) -> BallPockets:
     st = np.ascontiguousarray
-    angle = 2.0 * pi * np.arange(bearing.ball_count) / bearing.ball_count
+    angle, interface = bearing.element_azimuths, in_all_rows(interface, bearing)
     theta = interface.stations
     normal = np.sin(theta)[None, :, None] * interface.modes[:, :, 0]
     normal = normal + np.cos(theta)[None, :, None] * interface.modes[:, :, 2]
@@ -134,6 +156,8 @@ def _pockets(
     if interface.open_at is not None:
         ends[:, 2] = np.minimum(ends[:, 2], interface.open_at / interface.radius)
     offset = np.zeros(interface.modes.shape[:3]) if interface.offset is None else interface.offset
+    mirrored = np.repeat(_mirrored(bearing), bearing.ball_count)
+    ends[mirrored, 2:] = ends[mirrored, :1:-1]
     return BallPockets(
         azimuth=st(np.stack([np.cos(angle), np.sin(angle)], axis=1)),
         shift=st(interface.centre),
@@ -168,7 +192,7 @@ def build_ball_model(
     """Arrays of a ball bearing for the kernels, from its cage's body (``FlexibleBody``) and
     interface (``BallCageInterface``); without a cage all three are None."""
     rng = np.random.default_rng(seed)
-    scatter = bearing.ball_scatter * rng.standard_normal(bearing.ball_count)
+    scatter = bearing.ball_scatter * rng.standard_normal(bearing.total_elements)
     radius_of_balls = 0.5 * (bearing.ball_diameter + scatter)
     return BallModel(
         bodies=bodies_of(
@@ -184,10 +208,10 @@ def build_ball_model(
         outer=groove_of(bearing, contacts, lubricant, inner=False),
         pocket=(
             _pockets(bearing, cage, contacts, interface) if cage
-            else no_ball_pockets(bearing.ball_count)
+            else no_ball_pockets(bearing.total_elements)
         ),
         neighbours=ball_ball_data(bearing, contacts, radius_of_balls),
-        spot=SpottedBalls(marked(bearing.ball_count, bearing.ball_spot.balls)),
+        spot=SpottedBalls(marked(bearing.total_elements, bearing.ball_spot.balls)),
         land=(
             _lands(bearing, cage, contacts.land, lubricant, interface.land) if cage else no_land()
         ),

@@ -62,24 +62,24 @@ def touch_neighbours(t, y, yd, d, law, out, mode):
     Z, q, u = at.elements, y[: at.bodies_q], y[at.u : at.bodies_u]
     for i in range(Z):
         j = i + 1 if i + 1 < Z else 0
-        ahead = _ahead(i, j, q)
+        ahead = ahead_of(i, j, q)
         if ahead < cutoff:
             if mode == TANGENT:
-                _slopes(i, j, ahead, q, u, d, law)
+                add_slopes(i, j, ahead, q, u, d, law)
             else:
-                _push(i, j, ahead, q, u, d, law, mode)
+                press(i, j, ahead, q, u, d, law, mode)
         elif mode >= REPORT:
-            fields(d.report).approach[i, _next_ball(fields(d.report))] = 0.0
+            fields(d.report).approach[i, next_ball(fields(d.report))] = 0.0
 
 
 @part
-def _next_ball(rep):
+def next_ball(rep):
     """Place of a ball's contact with the next one, behind that with its pocket, if it has one."""
     return POCKET + rep.pocket_normal.shape[1]
 
 
 @part
-def _ahead(i, j, q):
+def ahead_of(i, j, q):
     """How far ball j is ahead of ball i [rad]; ball 0 is next to the last one."""
     ahead = q[of_element(j)][2] - q[of_element(i)][2]
     return ahead if j > i else ahead + 2.0 * pi
@@ -99,14 +99,14 @@ def _pair(i, j, ahead, q, u, d):
 
 
 @outlined
-def _push(i, j, ahead, q, u, d, law, mode):
+def press(i, j, ahead, q, u, d, law, mode):
     """Balls i and j, which are near each other."""
     work, sl = fields(d.scratch), fields(d.slices).row[0]
     data, rep = fields(d.neighbours), fields(d.report)
     two = _pair(i, j, ahead, q, u, d)
     touch = ball_ball_contact(two, data, Laws(law[RACE_LAW], law[RACE_RUBS]), sl)
     if mode >= REPORT:
-        rep.approach[i, _next_ball(rep)] = sl.v[0]
+        rep.approach[i, next_ball(rep)] = sl.v[0]
     if sl.d[0] <= 0.0:
         return
     arms, c, s = touch.arms, cos(ahead), sin(ahead)
@@ -117,14 +117,14 @@ def _push(i, j, ahead, q, u, d, law, mode):
     if mode >= REPORT:
         energy, damped = stored_and_damped((0, 1), sl, data.normal[EXPONENT])
         rep.rib[i, 0] = sl.N[0]
-        rep.contact[i, _next_ball(rep)] = 1 if sl.N[0] > 0.0 else 0
+        rep.contact[i, next_ball(rep)] = 1 if sl.N[0] > 0.0 else 0
         rep.energy[IN_CONTACTS] += energy
         rep.power[NEIGHBOUR_DAMPING] += damped
         rep.power[NEIGHBOUR_FRICTION] += dot(touch.friction, touch.slip)
 
 
 @outlined
-def _slopes(i, j, ahead, q, u, d, law):
+def add_slopes(i, j, ahead, q, u, d, law):
     """Those of balls i and j, which are near each other."""
     sl, pair, tan = fields(d.slices).row[0], fields(d.pair), fields(d.tangent)
     two = _pair(i, j, ahead, q, u, d)

@@ -67,7 +67,7 @@ def overlaps(model: BallModel, layout: Layout, y: np.ndarray) -> np.ndarray:
             (model.outer, at - q["outer"][:, None, :3]),
         )
     ]
-    gaps = radius + np.roll(radius, -1) - np.linalg.norm(np.roll(at, -1, axis=1) - at, axis=-1)
+    gaps = gaps_to_next(q["elements"], radius)
     if not layout.has_cage:
         return np.stack([*races, gaps], axis=-1)
     frames = Rotation.from_quat(q["quaternion"], scalar_first=True).as_matrix()
@@ -81,6 +81,15 @@ def overlaps(model: BallModel, layout: Layout, y: np.ndarray) -> np.ndarray:
     away = np.hypot(seen[..., 1], seen[..., 2])
     outside = np.maximum(model.pocket.wall[0] - away, away - model.pocket.wall[1])
     return np.stack([*races, free - (model.pocket.radius - radius), gaps, outside], axis=-1)
+
+
+def gaps_to_next(balls: np.ndarray, radius: np.ndarray) -> np.ndarray:
+    """How deep (n, Z) [m] balls of coordinates (n, Z, 6) lie in the next one, the last in the
+    first; below zero apart."""
+    x, r, psi = np.moveaxis(balls[..., :3], -1, 0)
+    at = np.stack([x, r * np.cos(psi), r * np.sin(psi)], axis=-1)
+    apart: np.ndarray = np.linalg.norm(np.roll(at, -1, axis=1) - at, axis=-1)
+    return radius + np.roll(radius, -1) - apart
 
 
 def _remedy(model: BallModel) -> str:

@@ -87,8 +87,8 @@ def evaluate(t, y, yd, d, law, out, mode):
         own = of_element(i)
         qi, ui = q[own], u[own]
         set_frame(qi[2], fields(d.pose).F)
-        _on_race(i, qi, ui, inner_of(y, d), fields(d.inner), INNER_RACE, d, law, mode)
-        _on_race(i, qi, ui, outer_of(y, d), fields(d.outer), OUTER_RACE, d, law, mode)
+        push_on_race(i, qi, ui, inner_of(y, d), fields(d.inner), INNER_RACE, d, law, mode)
+        push_on_race(i, qi, ui, outer_of(y, d), fields(d.outer), OUTER_RACE, d, law, mode)
         if at.cages > 0:
             ball_in_pocket(i, qi, ui, Rc, Vc, modes, d, law, mode)
         ball_rows(i, qi, ui, qd[own], ud[own], d, r_q[own], r_u[own], mode)
@@ -145,7 +145,7 @@ def in_pocket(i, qi, ui, Rc, Vc, d):
 
 
 @part
-def _on_race(i, qi, ui, ring, groove, race, d, law, mode):
+def push_on_race(i, qi, ui, ring, groove, race, d, law, mode):
     """Ball i on the race ``groove`` of a ring, in its frame F."""
     work, pair = fields(d.scratch), fields(d.pair)
     laws, sl = Laws(law[RACE_LAW], law[RACE_RUBS]), fields(d.slices).row[0]

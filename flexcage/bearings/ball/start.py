@@ -10,7 +10,6 @@ them.
 from __future__ import annotations
 
 from dataclasses import replace
-from math import pi
 from typing import Any
 
 import numpy as np
@@ -18,12 +17,11 @@ import numpy as np
 from flexcage.bearings.ball.bearing import BallBearing
 from flexcage.bearings.ball.model import BallModel
 from flexcage.bearings.ball.spot import BallSpot
-from flexcage.bodies.floating_frame import BodyData
 from flexcage.system.begun import Advance, Start, StaticStart
 from flexcage.system.layout import Layout
 from flexcage.system.problem import BearingSystem
 from flexcage.system.rings.moving import SIDES
-from flexcage.system.start import clear_of_land
+from flexcage.system.start import clear_of_land, strained_by_rotation
 from flexcage.system.statics.solution import StaticSolution
 
 _ALIKE = 1e-3  # rad: contact angles closer than this leave a ball's axis to their mean
@@ -47,7 +45,7 @@ def begun(bearing: BearingSystem, solution: StaticSolution, y: np.ndarray) -> St
     turn_spots(bearing.spec.ball_spot, bearing.layout, y, yd)
     if bearing.layout.modes:
         spin = float(bearing.layout.u(y)["omega"][0])
-        bearing.layout.q(y)["modes"][:] = _strained_by_rotation(model.cage, spin)
+        bearing.layout.q(y)["modes"][:] = strained_by_rotation(model.cage, spin)
     station = np.zeros_like(bearing.data.work.report.station)
     return Start(y, yd, (), 0.0, solution.unbalanced, station, solution.warnings)
 
@@ -87,7 +85,7 @@ def placed(
     reach = model.outer.radius - model.bodies.radius + depth
     q["elements"][:, 0] = axial + reach * np.sin(angle)
     q["elements"][:, 1] = model.outer.centre + reach * np.cos(angle)
-    q["elements"][:, 2] = 2.0 * pi * np.arange(layout.elements) / layout.elements
+    q["elements"][:, 2] = balls.azimuth
     q["inner"][:5], q["outer"][:5] = solution.displacement, solution.outer
     x, r, psi = (q["elements"][:, k].copy() for k in range(3))
     along, up, aside, skew, tilt = solution.outer  # balls go with the race
@@ -132,19 +130,6 @@ def turn_spots(spot: BallSpot, layout: Layout, y: np.ndarray, yd: np.ndarray) ->
         turning = layout.u(y)["elements"][ball, 3:].copy()
         turning[0] -= layout.q(yd)["elements"][ball, 2]
         layout.q(yd)["elements"][ball, 3:] = np.cross(turning, direction)
-
-
-def _strained_by_rotation(body: BodyData, speed: float) -> np.ndarray:
-    """Modal coordinates (n,) at which a cage that only rotates about its axis at ``speed`` [rad/s]
-    rests; from none it would ring.
-
-    Its modes feel w^2 int phi.p dm across the axis, with p the deformed place.
-    """
-    load = (body.S[1] + body.S[2]) * speed**2
-    stiffness = body.kff - (body.SS[:, 1] + body.SS[:, 2]) * speed**2
-    if body.gff.size:
-        stiffness = stiffness + body.gff * speed**2
-    return np.linalg.solve(stiffness, load)
 
 
 def _rolling(

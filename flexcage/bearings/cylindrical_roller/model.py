@@ -54,6 +54,15 @@ class SpottedRollers(NamedTuple):
     angle: float  # of its middle [rad] while the roller's spin angle is zero
 
 
+class RollerRows(NamedTuple):
+    """How many rollers a row has, and of every roller the middle of its row along the axis and its
+    azimuth in the row."""
+
+    each: int
+    place: np.ndarray  # (Z,) [m]
+    azimuth: np.ndarray  # (Z,) [rad]
+
+
 class RollerModel(NamedTuple):
     """Everything constant that a roller bearing's residual reads."""
 
@@ -69,6 +78,7 @@ class RollerModel(NamedTuple):
     neighbours: RollerRollerContact
     spot: SpottedRollers
     land: LandData
+    rows: RollerRows
 
 
 def slice_grid(bearing: RollerBearing, slices: int) -> tuple[np.ndarray, np.ndarray]:
@@ -111,13 +121,19 @@ def _race_side(bearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool
 
 def end_points(bearing: RollerBearing, cage: WindowCage) -> np.ndarray:
     """Points (n, 2) of a roller's end over the band that a side beam covers, as offsets along e_r
-    and e_psi [m]: Gauss points across the band by those along it (``END_POINTS``), enough to feel
-    a side beam that is bent within one pocket."""
-    low = max(0.5 * cage.bore - bearing.pitch_radius, -0.45 * bearing.roller_diameter)
-    high = min(0.5 * cage.outside_diameter - bearing.pitch_radius, 0.45 * bearing.roller_diameter)
+    and e_psi [m]."""
+    low, high = (0.5 * d - bearing.pitch_radius for d in (cage.bore, cage.outside_diameter))
+    return points_over(low, high, bearing.roller_diameter)
+
+
+def points_over(low: float, high: float, diameter: float) -> np.ndarray:
+    """Points (n, 2) of an end of a ``diameter`` over a band between heights [m], as offsets along
+    the heights and across them: Gauss points across the band by those along it (``END_POINTS``),
+    enough to feel a side beam that is bent within one pocket."""
+    low, high = max(low, -0.45 * diameter), min(high, 0.45 * diameter)
     across, along = (np.polynomial.legendre.leggauss(n)[0] for n in END_POINTS)
     across = 0.5 * (low + high) + 0.5 * (high - low) * across
-    reach = np.sqrt((0.45 * bearing.roller_diameter) ** 2 - max(abs(low), abs(high)) ** 2)
+    reach = np.sqrt((0.45 * diameter) ** 2 - max(abs(low), abs(high)) ** 2)
     return np.array([(y, z) for y in across for z in reach * along])
 
 
@@ -169,7 +185,18 @@ def own_coordinates(shapes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _pocket_laws(bearing, cage, contacts: Contacts, interface: CageInterface) -> np.ndarray:
-    """Normal laws (2, N_NORMAL) of a slice of a crossbeam and of a point of a side beam."""
+    points = len(end_points(bearing, cage))
+    return laws_in_pockets(
+        bearing, cage, crossbeam_width(bearing, cage), points, contacts, interface
+    )
+
+
+def laws_in_pockets(
+    bearing: Any, cage: Any, crossbeam: float, points: int, contacts: Contacts,
+    interface: CageInterface,
+) -> np.ndarray:  # fmt: skip
+    """Normal laws (2, N_NORMAL) of a slice of a crossbeam, whose width is given [m], and of one of
+    the ``points`` of a side beam."""
     rw, flexible = 0.5 * bearing.roller_diameter, interface.modes.shape[-1] > 0
     roller = elastic_constants(bearing.rolling_material)
     wall = elastic_constants(cage.warm_material)
@@ -178,15 +205,13 @@ def _pocket_laws(bearing, cage, contacts: Contacts, interface: CageInterface) ->
         length=bearing.effective_length,
         roller=roller,
         wall=wall,
-        depth=0.5 * crossbeam_width(bearing, cage),
+        depth=0.5 * crossbeam,
         patch_half_width=interface.patch_half_width if flexible else 0.0,
     )
     k_end = laws.flat_end_stiffness(0.9 * rw, roller, wall)
     return np.stack([
         laws.normal_parameters(contacts.pocket.normal, k, e, parts=contacts.pocket.slices),
-        laws.normal_parameters(
-            contacts.side.normal, k_end, 1.0, parts=len(end_points(bearing, cage))
-        ),
+        laws.normal_parameters(contacts.side.normal, k_end, 1.0, parts=points),
     ])  # fmt: skip
 
 
@@ -213,14 +238,44 @@ def _rib_data(
     )
 
 
+def _in_all_rows(interface: CageInterface, rows: int) -> CageInterface:
+    """The interface of a row's cage as one of the pockets of all rows."""
+    if rows == 1:
+        return interface
+    names = ("offset", "modes", "residual", "compliance")
+    all_rows: dict[str, Any] = {
+        name: np.concatenate([getattr(interface, name)] * rows) for name in names
+    }
+    return replace(interface, **all_rows)
+
+
+def _places_of_rows(bearing: RollerBearing) -> np.ndarray:
+    """Middle (Z,) [m] of the row of every roller."""
+    return np.repeat([row.place for row in bearing.row_places], bearing.roller_count)
+
+
 def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) -> PocketData:
     s, drop = slice_grid(bearing, contacts.pocket.slices)
-    angle = 2.0 * np.pi * np.arange(bearing.roller_count) / bearing.roller_count
-    normal = np.stack(
-        [interface.modes[:, f, :, 2 if f < 2 else 0] for f in range(4)], axis=1
-    )  # (Z, 4, nst, n)
-    n = interface.modes.shape[-1]
+    interface = _in_all_rows(interface, bearing.row_count)
     at = interface.stations if interface.offset_at is None else interface.offset_at
+    return pocket_arrays(
+        interface, interface.modes, interface.stations, at, contacts, bearing.element_azimuths,
+        place=_places_of_rows(bearing), s=s, drop=drop,
+        half=0.5 * np.array([cage.pocket_width, cage.pocket_length]),
+        points=end_points(bearing, cage), half_roller=0.5 * bearing.roller_length, middle=0.0,
+        normal=_pocket_laws(bearing, cage, contacts, interface),
+    )  # fmt: skip
+
+
+def pocket_arrays(
+    interface: CageInterface, modes: np.ndarray, stations: np.ndarray, at: np.ndarray,
+    contacts: Contacts, angle: np.ndarray, **known: Any,
+) -> PocketData:  # fmt: skip
+    """Pockets of a cage at ``angle`` (Z,): ``modes`` (Z, 4, nst, 3, n) at the stations in the axes
+    of the faces, places of ``stations`` (4, nst) and of the offsets (4, no) along them [m], and
+    what else is ``known``."""
+    n = modes.shape[-1]
+    normal = np.stack([modes[:, f, :, 2 if f < 2 else 0] for f in range(4)], axis=1)
     st = np.ascontiguousarray
     if interface.compliance.shape[1:] != (N_LOCAL, N_LOCAL):
         raise ValueError(f"compliances are {interface.compliance.shape}, not (Z, {N_LOCAL}, same)")
@@ -232,20 +287,15 @@ def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) ->
     own = with_end_stations(own)
     return PocketData(
         azimuth=st(np.stack([np.cos(angle), np.sin(angle)], axis=1)),
-        half=0.5 * np.array([cage.pocket_width, cage.pocket_length]),
-        s=s,
-        drop=drop,
-        points=end_points(bearing, cage),
-        half_roller=0.5 * bearing.roller_length,
-        x0=st(interface.stations[:, 0]),
-        dx=st(interface.stations[:, 1] - interface.stations[:, 0]),
+        x0=st(stations[:, 0]),
+        dx=st(stations[:, 1] - stations[:, 0]),
         offset=st(interface.offset),
         grid=st(np.stack([at[:, 0], at[:, 1] - at[:, 0]])),
         low=interface.offset.min(axis=2),
         bent=np.any(interface.offset, axis=2).astype(np.int64),
-        phi=st(interface.modes),
+        phi=st(modes),
         phi_max=np.abs(normal).max(axis=(0, 1, 2)) if n else np.zeros(0),
-        rows=modal_rows(interface.modes),
+        rows=modal_rows(modes),
         soft=int(interface.compliance.any()),
         res=res,
         res_max=res_max,
@@ -254,13 +304,13 @@ def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) ->
         own_max=np.abs(own).max(axis=2),
         turn=turn,
         root=root,
-        normal=_pocket_laws(bearing, cage, contacts, interface),
         friction=np.stack(
             [
                 laws.friction_parameters(contacts.pocket.friction),
                 laws.friction_parameters(contacts.side.friction),
             ]
         ),
+        **known,
     )
 
 
@@ -271,7 +321,7 @@ def build_roller_model(
     """Arrays of a roller bearing for the kernels, from its cage's body (``FlexibleBody``) and
     interface (``CageInterface``); without a cage all three are None."""
     scatter = bearing.roller_scatter * np.random.default_rng(seed).standard_normal(
-        bearing.roller_count
+        bearing.total_elements
     )
     spot = bearing.roller_spot
     return RollerModel(
@@ -290,13 +340,16 @@ def build_roller_model(
         outer_rib=_rib_data(bearing, cage, contacts, "outer"),
         pocket=(
             _pocket_data(bearing, cage, contacts, interface) if cage
-            else no_pockets(bearing.roller_count, 0.5 * bearing.roller_length)
+            else no_pockets(bearing.total_elements, 0.5 * bearing.roller_length)
         ),
         neighbours=roller_roller_data(
             bearing, contacts, *slice_grid(bearing, contacts.race.slices)
         ),
-        spot=SpottedRollers(marked(bearing.roller_count, spot.rollers), spot.angle),
+        spot=SpottedRollers(marked(bearing.total_elements, spot.rollers), spot.angle),
         land=_land(bearing, cage, contacts, lubricant, interface) if cage else no_land(),
+        rows=RollerRows(
+            bearing.roller_count, _places_of_rows(bearing), bearing.element_azimuths
+        ),
     )  # fmt: skip
 
 
@@ -306,7 +359,9 @@ def _land(
 ) -> LandData:  # fmt: skip
     """The cage's land on the ring that guides it."""
     outer, radius, clearance = _guiding_land(bearing, cage)
-    land = replace(contacts.land.on(bearing.land(cage)), clearance=clearance)
+    ring = bearing.land(cage)
+    assert ring is not None, "rollers' cages face a ring"
+    land = replace(contacts.land.on(ring), clearance=clearance)
     return land_data(
         cage,
         land,
@@ -316,6 +371,7 @@ def _land(
         outer=outer,
         radius=radius,
         bearing=bearing,
+        end=ring.end,
     )
 
 

@@ -58,16 +58,16 @@ def roller_roller_data(
 def touch_next(t, y, yd, d, law, out, mode):
     """Forces of rollers on their neighbours into ``Scratch.wrenches``; in mode TANGENT their
     slopes, each over the own roller's motion. Arguments are those of ``residual.evaluate``."""
-    at = fields(d.places)
+    at, count = fields(d.places), fields(d.rows).each
     for i in range(at.elements):
-        j = i + 1 if i + 1 < at.elements else 0
+        j = i + 1 if (i + 1) % count != 0 else i + 1 - count
         _touch(i, j, y[: at.bodies_q], d, law, mode)
 
 
 @part
-def _pair(i, j, q, d):
-    """Rollers i and j in the frame of i, and how far j is ahead [rad]; roller 0 is next to the last
-    one."""
+def pair_of(i, j, q, d):
+    """Rollers i and j in the frame of i, and how far j is ahead [rad]; the first roller of a row
+    is next to its last one."""
     radius, poses = fields(d.bodies).radius, fields(d.scratch).poses
     qi, qj = q[of_element(i)], q[of_element(j)]
     ahead = qj[2] - qi[2] + (0.0 if j > i else 2.0 * pi)
@@ -90,7 +90,7 @@ def _touch(i, j, q, d, law, mode):
         fields(d.report),
         fields(d.scratch),
     )
-    two, ahead = _pair(i, j, q, d)
+    two, ahead = pair_of(i, j, q, d)
     depth, speed = approach_of(two, data, sl)
     if mode >= REPORT:
         rep.approach[i, NEXT_ROLLER], rep.pocket_normal[i, 0] = speed, 0.0

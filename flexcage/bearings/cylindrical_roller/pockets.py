@@ -66,14 +66,8 @@ from flexcage.system.ring import inner_of, outer_of
 def roller_pockets(t, y, yd, d, law, out, mode):
     """Add the pockets' wrenches to ``Scratch.wrenches`` and ``border``; for other arguments see
     ``residual.evaluate``. Poses of rollers and cage are in ``Scratch`` already."""
-    work, phi_max, at = fields(d.scratch), fields(d.pocket).phi_max, fields(d.places)
-    q, nm, modal = y[: at.bodies_q], at.modes, work.modal
-    qf, qfd = array_from(y, at.cage_q + FRAME), array_from(y, at.cage_u + RIGID)
-    margin = 0.0
-    for m in range(nm):
-        margin += phi_max[m] * abs(qf[m])
-        modal[0, m], modal[1, m] = qf[m], qfd[m]
-    modes = CageModes(modal[0], modal[1], margin)
+    work, at, q = fields(d.scratch), fields(d.places), y[: fields(d.places).bodies_q]
+    modes = modes_of_cage(y, d)
     Rc, Vc = array_from(y, at.cage_q), array_from(y, at.cage_u)
     for i in range(at.elements):
         take_pose(work.poses[i], fields(d.pose))
@@ -83,10 +77,23 @@ def roller_pockets(t, y, yd, d, law, out, mode):
 
 
 @part
+def modes_of_cage(y, d):
+    """The cage's modes in y."""
+    work, phi_max, at = fields(d.scratch), fields(d.pocket).phi_max, fields(d.places)
+    nm, modal = at.modes, work.modal
+    qf, qfd = array_from(y, at.cage_q + FRAME), array_from(y, at.cage_u + RIGID)
+    margin = 0.0
+    for m in range(nm):
+        margin += phi_max[m] * abs(qf[m])
+        modal[0, m], modal[1, m] = qf[m], qfd[m]
+    return CageModes(modal[0], modal[1], margin)
+
+
+@part
 def _pocket(i, qi, Rc, Vc, modes, d, law, mode):
     """Roller i in its pocket; the cage is at Rc and moves as Vc."""
     pose, pair, pw, work = fields(d.pose), fields(d.pair), fields(d.pocket_work), fields(d.scratch)
-    data, memory, tan = fields(d.pocket), fields(d.memory), fields(d.tangent)
+    data, memory = fields(d.pocket), fields(d.memory)
     F, A, vec, sums, border = pose.F, work.A, work.vec, work.sums, work.border
     D, Vr, wr = vec[LEVER], vec[PARTNER_V], vec[PARTNER_W]
     put(D, plus((0.0, qi[1], 0.0), turned(F, (qi[0] - Rc[0], -Rc[1], -Rc[2]))))
@@ -107,21 +114,29 @@ def _pocket(i, qi, Rc, Vc, modes, d, law, mode):
         push_pair(i, pair.wrench, A, xyz(D), at.cage_b, d)
         push_modes(data, i, pw, border[modes_at(at.cage_b + RIGID, at.modes)])
     if mode == TANGENT:
-        tan.active[i] = 1 if hit else 0
-        if hit:
-            copy_into(work.R[0], F)
-            for c in range(3):
-                put(work.R[1, c], turned_back(A, row(F, c)))
-            shift_matrix(work.R, D, work.S)
-            scatter(pair, work.S, i, at.cage_b, tan, work.T6)
-            if modes.q.shape[0] > 0:
-                scatter_modes(i, pw, work.S, at.cage_b, tan, at.modes)
+        scatter_pocket(i, hit, modes, d)
     elif mode >= REPORT:
-        _report_pocket(i, hit, sums, pw, fields(d.report), mode)
+        report_pocket(i, hit, sums, pw, fields(d.report), mode)
+
+
+@part
+def scatter_pocket(i, hit, modes, d):
+    """The share of pocket i in the tangent, if its roller touches it."""
+    tan, work, at, F = fields(d.tangent), fields(d.scratch), fields(d.places), fields(d.pose).F
+    pw, D = fields(d.pocket_work), work.vec[LEVER]
+    tan.active[i] = 1 if hit else 0
+    if hit:
+        copy_into(work.R[0], F)
+        for c in range(3):
+            put(work.R[1, c], turned_back(work.A, row(F, c)))
+        shift_matrix(work.R, D, work.S)
+        scatter(fields(d.pair), work.S, i, at.cage_b, tan, work.T6)
+        if modes.q.shape[0] > 0:
+            scatter_modes(i, pw, work.S, at.cage_b, tan, at.modes)
 
 
 @outlined
-def _report_pocket(i, hit, sums, pw, rep, mode):
+def report_pocket(i, hit, sums, pw, rep, mode):
     if hit:
         rep.energy[IN_CONTACTS] += sums[STORED]
         rep.power[POCKET_DAMPING] += sums[DAMPED]

@@ -51,14 +51,14 @@ def _variables(bearing: BearingSystem, y: np.ndarray) -> dict[str, np.ndarray]:
         "race_traction": s.race[:n, :, :, 1],
         "race_moment": s.race[:n, :, :, [3, 2]],
         "race_slip": s.race[:n, :, :, 4],
-        **(_in_pockets(bearing, n) if bearing.layout.has_cage else _neighbour_forces(bearing, n)),
+        **(in_pockets(bearing, n) if bearing.layout.has_cage else neighbour_forces(bearing, n)),
         "rib_force": s.rib[:n, :, :2],
         "counter_rib_force": s.rib[:n, :, 2:] if s.rib.shape[2] > 2 else np.zeros_like(s.rib[:n]),
         **_spots(bearing.data.model, q),
     }
 
 
-def _in_pockets(bearing: BearingSystem, n: int) -> dict[str, np.ndarray]:
+def in_pockets(bearing: BearingSystem, n: int) -> dict[str, np.ndarray]:
     s, root = bearing.data.samples, bearing.data.model.pocket.root
     return {
         "pocket_slice_force": s.slice_normal[:n],
@@ -69,7 +69,7 @@ def _in_pockets(bearing: BearingSystem, n: int) -> dict[str, np.ndarray]:
     }
 
 
-def _neighbour_forces(bearing: BearingSystem, n: int) -> dict[str, np.ndarray]:
+def neighbour_forces(bearing: BearingSystem, n: int) -> dict[str, np.ndarray]:
     """Of rollers without a cage: next ones stand for walls of pockets (``Motion.uncaged``)."""
     return {"neighbour_force": bearing.data.samples.pocket_normal[:n, :, 0]}
 
@@ -101,12 +101,16 @@ def overlaps(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarray:
     ribs = [none] * rib_columns(model)
     for data, place in ((model.rib, in_inner), (model.outer_rib, in_outer)):
         for f in range(data.first, data.end):
-            ribs[data.column + f] = place[..., 0] * (1.0, -1.0)[f] + end - data.half_gap
+            beside = place[..., 0] - model.rows.place
+            ribs[data.column + f] = beside * (1.0, -1.0)[f] + end - data.half_gap
     if layout.has_cage:
         others = _in_walls(model, q, at)
     else:
-        away = (np.roll(at, -1, axis=1) - at)[..., 1:]
-        others = [radius + np.roll(radius, -1) - np.linalg.norm(away, axis=-1)]
+        count = model.rows.each
+        following = np.arange(len(radius)) + 1
+        following[count - 1 :: count] -= count
+        away = (at[:, following] - at)[..., 1:]
+        others = [radius + radius[following] - np.linalg.norm(away, axis=-1)]
     return np.stack(
         [
             model.inner.radius + radius - np.hypot(in_inner[..., 1], in_inner[..., 2]),
@@ -124,10 +128,11 @@ def _in_walls(model: RollerModel, q: dict[str, np.ndarray], at: np.ndarray) -> l
     frames = Rotation.from_quat(q["quaternion"], scalar_first=True).as_matrix()
     seen = np.einsum("nzc,ncd->nzd", at - q["cage"][:, None], frames)
     ahead = seen[..., 2] * cos - seen[..., 1] * sin
+    beside = seen[..., 0] - model.pocket.place
     walls = np.repeat(model.pocket.half, 2) + np.maximum(model.pocket.offset.max(axis=2), 0.0)
     return [
         ahead + radius - walls[:, 0], -ahead + radius - walls[:, 1],
-        seen[..., 0] + end - walls[:, 2], -seen[..., 0] + end - walls[:, 3],
+        beside + end - walls[:, 2], -beside + end - walls[:, 3],
     ]  # fmt: skip
 
 

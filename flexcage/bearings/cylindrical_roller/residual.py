@@ -161,7 +161,10 @@ def on_ribs(i, at, ribs, d, law, mode):
     """Does roller i touch the ``ribs`` of a ring, its partner ``at``? What they do to it."""
     laws, sl = Laws(law[RIB_LAW], law[RIB_RUBS]), fields(d.slices).row[0]
     speeds, sums = fields(d.memory).rib[i, ribs.column :], fields(d.scratch).sums
-    return rib_contact(fields(d.pose), at, ribs, speeds, laws, sl, fields(d.pair), mode, sums)
+    middle = fields(d.rows).place[i]
+    return rib_contact(
+        fields(d.pose), at, ribs, middle, speeds, laws, sl, fields(d.pair), mode, sums
+    )
 
 
 @part

@@ -102,9 +102,8 @@ def geometric_guess(model: RollerModel, layout: Layout) -> np.ndarray:
     those that bear the axial load; the rest centred."""
     y = np.zeros(layout.size)
     q = layout.q(y)
-    Z = layout.elements
     q["elements"][:, 1] = model.outer.radius - model.bodies.radius
-    q["elements"][:, 2] = 2.0 * np.pi * np.arange(Z) / Z
+    q["elements"][:, 2] = model.rows.azimuth
     ring, mount = model.inner_ring, model.outer_ring
     q["inner"][4] = ring.rest[U_TILT]
     if ring.free[0]:
@@ -113,7 +112,11 @@ def geometric_guess(model: RollerModel, layout: Layout) -> np.ndarray:
     if layout.has_cage:
         q["quaternion"][0] = 1.0
     if layout.has_cage and ring.free[0]:
-        q["cage"][0] = q["inner"][0] if _guided_by_inner(model) else q["elements"][0, 0]
+        q["cage"][0] = (
+            q["inner"][0]
+            if _guided_by_inner(model)
+            else (q["elements"][0, 0] - model.rows.place[0])
+        )
     shift = float(mount.bore[CLEARANCE]) if mount.loose else 0.0
     q["outer"][1:3] = shift * model.bodies.load_direction  # a ring in its bore lies on the ground
     psi = q["elements"][:, 2]
@@ -158,16 +161,18 @@ def _guided_by_inner(model: RollerModel) -> bool:
 
 def _between_ribs(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarray:
     """Where (Z,) along the axis the rollers' centres are [m]: in the middle plane of the ring whose
-    ribs guide them; before a rib of the outer ring if it bears the axial load."""
+    ribs guide them, in that of their row; before a rib of the outer ring if it bears the axial
+    load."""
     q, way = layout.q(y), _bearing_ribs(model)
     if way:
         place = way * (model.outer_rib.half_gap - model.rib.half_roller)
-        return np.full(layout.elements, place)
+        return place + model.rows.place
     if not _guided_by_inner(model):
-        return np.zeros(layout.elements)
+        return model.rows.place.copy()
     r, psi, (skew, tilt) = q["elements"][:, 1], q["elements"][:, 2], q["inner"][3:5]
     up, across = np.tan(tilt) / np.cos(skew), np.tan(skew)
-    return q["inner"][0] - r * np.cos(psi) * up + r * np.sin(psi) * across
+    along: np.ndarray = q["inner"][0] - r * np.cos(psi) * up + r * np.sin(psi) * across
+    return along + model.rows.place
 
 
 class _Frictionless:

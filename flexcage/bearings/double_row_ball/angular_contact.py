@@ -12,12 +12,11 @@ from flexcage.bearings.ball.ratings import STATIC_PRESSURE
 from flexcage.bearings.two_rows import (
     ARRANGEMENTS,
     RowFields,
-    RowPlace,
     single,
 )
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import typeset
-from flexcage.geometry.bearing import Bearing, type_name
+from flexcage.geometry.bearing import Bearing, RowPlace, type_name
 
 if TYPE_CHECKING:
     from flexcage.geometry.fits.changed import Changed

@@ -88,8 +88,9 @@ def _check(bearing: BallBearing, cage: Cage | None, defects: Sequence[Any]) -> N
             where="bearing.contact_angle",
         )
     if isinstance(bearing, SelfAligningBallBearing):
-        bearing.grooved.check()
+        bearing.grooved.check(cage)
         two_rows.check_rows(bearing)
+        two_rows.check_cage(bearing, cage, defects)
     else:
         two_rows.check(bearing, cage, defects)
 

@@ -11,10 +11,10 @@ from flexcage.bearings.ball.angular_contact import AngularContactBallBearing
 from flexcage.bearings.ball.bearing import BallBearing
 from flexcage.bearings.ball.deep_groove import DeepGrooveBallBearing
 from flexcage.bearings.double_row_ball.angular_contact import POWER, WEIBULL
-from flexcage.bearings.two_rows import RowFields, RowPlace, single
+from flexcage.bearings.two_rows import RowFields, single
 from flexcage.core.spec import quantity
 from flexcage.core.units import typeset
-from flexcage.geometry.bearing import type_name
+from flexcage.geometry.bearing import RowPlace, type_name
 
 if TYPE_CHECKING:
     from flexcage.geometry.fits.changed import Changed
@@ -33,6 +33,7 @@ class SelfAligningBallBearing(RowFields, BallBearing):
 
     kind: ClassVar[str] = "self-aligning ball bearing"
     family: ClassVar[str] = "double_row_ball"
+    self_aligning: ClassVar[bool] = True
     row_power: ClassVar[float] = POWER
     weibull: ClassVar[float] = WEIBULL
     carries: ClassVar[tuple[bool, ...]] = (True, True, True, False, False)

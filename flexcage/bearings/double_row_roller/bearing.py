@@ -7,9 +7,9 @@ from functools import cached_property
 from typing import ClassVar
 
 from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
-from flexcage.bearings.two_rows import RowFields, RowPlace, single
+from flexcage.bearings.two_rows import RowFields, single
 from flexcage.core.units import typeset
-from flexcage.geometry.bearing import type_name
+from flexcage.geometry.bearing import RowPlace, type_name
 from flexcage.geometry.rollers import STATIC_PRESSURE
 
 
@@ -35,6 +35,10 @@ class DoubleRowRollerBearing(RowFields, RollerBearing):
     @property
     def row_places(self) -> tuple[RowPlace, RowPlace]:
         return self._places(self.roller_count, sense=1.0)
+
+    @property
+    def greatest_shift(self) -> float:
+        return 0.5 * (self.width - self.row_distance - self.roller_length)
 
     @property
     def late(self) -> float:

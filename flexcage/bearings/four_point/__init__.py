@@ -21,6 +21,7 @@ FAMILY = Family(
     figures=lambda: slots.figures,
     rubbing=lambda: slots.rubbing,
     shapes=lambda: slots.shapes,
+    losses=lambda: slots.losses,
     inside=lambda: slots.inside,
     built_on="ball",
 )

@@ -15,19 +15,17 @@ from functools import cached_property
 from math import atan, cos, pi, sin, sqrt
 from typing import TYPE_CHECKING, ClassVar
 
-import numpy as np
-
 from flexcage.bearings.tapered_roller.frustum import Frustum
-from flexcage.cages.window.cage import WindowCage
+from flexcage.cages.conical.cage import ConicalCage
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import typeset
-from flexcage.geometry.bearing import Bearing, Spec, hollow_cylinder_inertia, type_name
-from flexcage.geometry.film import Film, Oil, both_races, line_film, rolling_entrainment
+from flexcage.geometry.bearing import Bearing, Spec, type_name
 from flexcage.geometry.hertz import PointContact
+from flexcage.geometry.inclined_rollers import OfInclinedRollers
 from flexcage.geometry.life.iso281 import ROLLERS, Endurance
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.other_kinds import SURROUNDINGS
-from flexcage.geometry.rollers import OfRollers, RollerProfile
+from flexcage.geometry.rollers import RollerProfile
 
 if TYPE_CHECKING:
     from flexcage.geometry.fits.changed import Changed
@@ -40,7 +38,7 @@ FIRST_CONTACT = (
 
 
 @dataclass(frozen=True, kw_only=True)
-class TaperedRollerBearing(OfRollers, Bearing):
+class TaperedRollerBearing(OfInclinedRollers, Bearing):
     """A single-row tapered roller bearing; displacements count from first contact.
 
     The rollers' half angle follows from their mean diameter, the pitch diameter and the contact
@@ -48,7 +46,7 @@ class TaperedRollerBearing(OfRollers, Bearing):
     """
 
     kind: ClassVar[str] = "tapered roller bearing"
-    cage_spec: ClassVar[Spec] = WindowCage
+    cage_spec: ClassVar[Spec] = ConicalCage
     element: ClassVar[str] = "tapered roller"
     family: ClassVar[str] = "tapered_roller"
     places: ClassVar[tuple[str, ...]] = ("race", "rib")
@@ -111,36 +109,14 @@ class TaperedRollerBearing(OfRollers, Bearing):
         """Distance [m] of the apex from a roller's middle."""
         return 0.5 * self.pitch_diameter / sin(self.axis_angle)
 
-    @property
-    def pitch_radius(self) -> float:
-        return 0.5 * self.pitch_diameter
-
-    @property
-    def nominal_contact_angle(self) -> float:
-        """Of kinematics: Dwe is measured across the roller's axis, not along the races' normals."""
-        return self.axis_angle
-
-    def rolling_angles(self, angles: tuple[float, float]) -> tuple[float, float]:
-        return self.axis_angle, self.axis_angle
-
-    @property
-    def gamma(self) -> float:
-        """Dwe cos(alpha)/Dpw of the ratings."""
-        return self.roller_diameter * cos(self.contact_angle) / self.pitch_diameter
-
     @cached_property
     def roller(self) -> Frustum:
         return Frustum(0.5 * self.roller_diameter, self.roller_length, self.half_angle)
 
     @property
-    def element_mass(self) -> float:
-        """Of a roller with flat ends [kg]."""
-        return self.rolling_material.density * self.roller.volume
-
-    @cached_property
-    def roller_inertia(self) -> tuple[float, float]:
-        """Axial and transverse moments of inertia [kg m^2] about its centre of mass."""
-        return self.roller.inertia(self.rolling_material.density)
+    def sphere_at_centre(self) -> float:
+        """Radius [m] of the sphere about a roller's centre of mass that its cone touches."""
+        return self.roller.radius(self.roller.centre) * cos(self.half_angle)
 
     @property
     def clearance(self) -> float:
@@ -161,11 +137,6 @@ class TaperedRollerBearing(OfRollers, Bearing):
         meets by its sin(alpha)."""
         races = 0.5 * (changed.inner_race - changed.outer_race) * cos(self.contact_angle)
         return (races + changed.element * cos(self.half_angle)) / sin(self.contact_angle)
-
-    @property
-    def race_diameters(self) -> tuple[float, float]:
-        reach = self.roller_diameter * cos(self.axis_angle)
-        return self.pitch_diameter - reach, self.pitch_diameter + reach
 
     @property
     def curvature_radii(self) -> tuple[float, float]:
@@ -213,30 +184,9 @@ class TaperedRollerBearing(OfRollers, Bearing):
         shrink = 1.0 - x / self.apex_distance
         return self.race_diameters[ring == "outer"] * shrink
 
-    @cached_property
-    def inner_ring_mass(self) -> float:
-        """Inner ring as a hollow cylinder from bore to mean race diameter, without ribs [kg]."""
-        area = 0.25 * pi * (self.race_diameters[0] ** 2 - self.bore**2)
-        return self.material.density * area * self.inner_width
-
-    @cached_property
-    def inner_ring_inertia(self) -> tuple[float, float]:
-        """Axial and transverse moments of inertia of that hollow cylinder [kg m^2]."""
-        return hollow_cylinder_inertia(
-            self.inner_ring_mass, self.bore, self.race_diameters[0], self.inner_width
-        )
-
-    @cached_property
-    def outer_ring_mass(self) -> float:
-        area = 0.25 * pi * (self.outside_diameter**2 - self.race_diameters[1] ** 2)
-        return self.material.density * area * self.outer_width
-
-    @cached_property
-    def outer_ring_inertia(self) -> tuple[float, float]:
-        """Axial and transverse moments of inertia of a hollow cylinder of that mass [kg m^2]."""
-        return hollow_cylinder_inertia(
-            self.outer_ring_mass, self.race_diameters[1], self.outside_diameter, self.outer_width
-        )
+    @property
+    def ring_widths(self) -> tuple[float, float]:
+        return self.inner_width, self.outer_width
 
     def axial_refusal(self, load: float) -> str:
         if load >= 0.0:
@@ -244,22 +194,6 @@ class TaperedRollerBearing(OfRollers, Bearing):
         return (
             "a tapered roller bearing carries axial load on its inner ring towards +x alone, into "
             "the outer ring"
-        )
-
-    def race_film(self, force: np.ndarray, speed: np.ndarray, oil: Oil) -> Film:
-        """The load spread evenly over the effective length: a profile's ends are not resolved."""
-        line = force / self.effective_length
-        return both_races([
-            line_film(radius, self.race_modulus, line[..., k], speed[..., k], oil)
-            for k, radius in enumerate(self.curvature_radii)
-        ])  # fmt: skip
-
-    def rolling_entrainment(
-        self, angle: np.ndarray, orbit: np.ndarray, inner_speed: float
-    ) -> np.ndarray:
-        rolling = np.where(np.isnan(angle), np.nan, self.axis_angle)
-        return rolling_entrainment(
-            rolling, orbit, inner_speed, diameter=self.roller_diameter, pitch=self.pitch_diameter
         )
 
     def in_words(self) -> str:

@@ -152,5 +152,5 @@ def _reasons(rings: _Rings, b: TaperedRollerBearing) -> dict[str, Any]:
 
 
 INFERENCE = Inference(
-    candidates=candidates, cages={name_of(TaperedRollerBearing): ""}, count="roller_count"
+    candidates=candidates, cages={name_of(TaperedRollerBearing): "conical"}, count="roller_count"
 )

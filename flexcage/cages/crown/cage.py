@@ -16,7 +16,7 @@ from typing import ClassVar
 from flexcage.cages.round_pocket.cage import BALL_CAGES, BallCage
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe, typeset
-from flexcage.geometry.cage import Cage, HeldElements, Objection
+from flexcage.geometry.cage import CylindricalCage, HeldElements, Objection
 from flexcage.geometry.materials import MATERIALS, Material
 
 _THINNEST = (
@@ -124,7 +124,7 @@ class CrownCage(BallCage):
         }
 
     def impossible(self, pocket_count: int) -> Iterator[Objection]:
-        yield from Cage.impossible(self, pocket_count)
+        yield from CylindricalCage.impossible(self, pocket_count)
         if self.throat >= self.pocket_diameter:
             yield (
                 "throat",

@@ -16,7 +16,7 @@ from typing import ClassVar
 from flexcage.cages.round_pocket.cage import BALL_CAGES, BallCage
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe, typeset
-from flexcage.geometry.cage import Cage, HeldElements, Objection
+from flexcage.geometry.cage import CylindricalCage, HeldElements, Objection
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.riveted_joint import JointShape
 
@@ -128,7 +128,7 @@ class RibbonCage(BallCage):
         return 0.5 * max(outer - pitch, pitch - inner)
 
     def impossible(self, pocket_count: int) -> Iterator[Objection]:
-        yield from Cage.impossible(self, pocket_count)
+        yield from CylindricalCage.impossible(self, pocket_count)
         thin = _THINNEST * self.pocket_diameter
         if self.thickness < thin:
             yield "thickness", f"makes no sheet; it must be at least {describe(thin, 'mm')}"

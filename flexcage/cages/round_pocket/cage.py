@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import describe, typeset
-from flexcage.geometry.cage import Cage, HeldElements, Objection, cages_of
+from flexcage.geometry.cage import CylindricalCage, HeldElements, Objection, cages_of
 from flexcage.geometry.materials import MATERIALS, Material
 
 POCKET_SHAPES = ("cylindrical", "spherical")
@@ -18,7 +18,7 @@ BALL_CAGES = cages_of("ball")
 
 
 @dataclass(frozen=True, kw_only=True)
-class BallCage(Cage):
+class BallCage(CylindricalCage):
     """A cage with one round pocket per ball: a hollow cylinder with radial holes, or spheres.
 
     ``pocket_diameter`` is that of cylinder or sphere. A cage that a ring guides has its land there,

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from flexcage.cages.window.cage import WindowCage
 from flexcage.cages.window.defects import WindowDefect, find_repeated
+from flexcage.cages.window.windowed import WindowedCage
 from flexcage.core.spec import option
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.defect import CageLine, Finding, Mark, Reading, defect_type
@@ -34,35 +34,39 @@ class BrokenCrossbeam(WindowDefect):
     crossbeam: int = option(doc="crossbeam number, 0 .. Z-1", minimum=0)
 
     def extent(self, cage: Cage) -> float:
-        return 0.5 * (cage.outside_diameter - cage.bore)
+        assert isinstance(cage, WindowedCage)
+        return cage.wall
 
-    def displace(self, points: np.ndarray, cage: WindowCage, *, pocket_count: int) -> np.ndarray:
+    def displace(self, points: np.ndarray, cage: WindowedCage, *, pocket_count: int) -> np.ndarray:
         return np.zeros_like(points)
 
-    def opened(self, sound: CageMesh, mesh: CageMesh) -> CageMesh:
+    def opened(self, sound: CageMesh, mesh: CageMesh, cage: WindowedCage) -> CageMesh:
         from flexcage.cages.window.morph import break_crossbeam
 
-        return break_crossbeam(sound, mesh, self.crossbeam)
+        return break_crossbeam(sound, mesh, self.crossbeam, cage)
 
     def readings(self, mesh: Any, cage: Any, *, pitch_radius: float) -> Sequence[Reading]:
         """Height of the cut: that of the wall."""
         from flexcage.cages.window.morph import cut_height
 
-        return [Reading(self.type, self.extent(cage), [cut_height(mesh, self.crossbeam)])]
+        return [Reading(self.type, self.extent(cage), [cut_height(mesh, self.crossbeam, cage)])]
 
     @property
     def legend(self) -> Sequence[Mark]:
         return (Mark("line", "crack", "break through the crossbeam"),)
 
     def lines(self, points: np.ndarray, count: int) -> list[CageLine]:
-        """Across the crossbeam, on the outside."""
-        own = np.abs(points[:, 0]) < 1e-6 * np.ptp(points[:, 0])
-        _, radial, tangential = in_pocket_frame(points[own], self.place, count).T
-        turn = np.arctan2(tangential, radial)
+        """Across the crossbeam, on the outside: there its ends have vertices of one place."""
+        placed, times = np.unique(points, axis=0, return_counts=True)
+        x, radial, tangential = in_pocket_frame(placed[times > 1], self.place, count).T
+        turn, r = np.arctan2(tangential, radial), np.hypot(radial, tangential)
         near = np.abs(turn) < pi / count
-        r = np.hypot(radial, tangential)[near].max()
+        outside = near & (r > (1.0 - 1e-6) * r[near].max(initial=0.0))
+        if not outside.any():
+            return []
         a = 2.0 * pi * self.place / count + np.linspace(turn[near].min(), turn[near].max(), 9)
-        line = r * np.stack([0.0 * a, np.cos(a), np.sin(a)], axis=1)
+        middle, high = x[outside].mean(), r[outside].mean()
+        line = np.stack([middle + 0.0 * a, high * np.cos(a), high * np.sin(a)], axis=1)
         return [CageLine(line, line[4])]
 
     @property

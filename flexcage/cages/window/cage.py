@@ -7,17 +7,17 @@ from dataclasses import dataclass
 from math import hypot, pi, sin
 from typing import ClassVar
 
+from flexcage.cages.window.windowed import WindowedCage
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import mm, typeset
-from flexcage.geometry.cage import Cage, HeldElements, Objection, cages_of
+from flexcage.geometry.cage import CylindricalCage, HeldElements, Objection, cages_of
 
-_SHARPEST = 1e-4  # fillet, of the pocket's smaller side; smaller ones are lost in its mesh
 GUIDANCE = ("roller", "inner", "outer")
 ROLLER_CAGES = cages_of("roller")
 
 
 @dataclass(frozen=True, kw_only=True)
-class WindowCage(Cage):
+class WindowCage(WindowedCage, CylindricalCage):
     """A machined window cage: a hollow cylinder with one rectangular pocket per roller.
 
     Pocket walls are planes: the crossbeam faces parallel to the pocket's radial mid-plane at
@@ -40,31 +40,26 @@ class WindowCage(Cage):
     guidance: str = option("roller", doc="what guides the cage radially", choices=GUIDANCE)
 
     @property
-    def fillet(self) -> float:
-        return self.fillet_radius
-
-    @property
-    def pocket_size(self) -> float:
-        return self.pocket_width
-
-    @property
     def pocket_reach(self) -> float:
         return 0.5 * self.pocket_length
 
     def thinnest(self, pitch_diameter: float, pocket_count: int) -> float:
         beam = pi * pitch_diameter / pocket_count - self.pocket_width
-        return min(0.5 * (self.outside_diameter - self.bore), beam)
+        return min(self.wall, beam)
 
     def parts(self, pitch_diameter: float, pocket_count: int) -> dict[str, float]:
         return {
             "crossbeams": self.bore * sin(pi / pocket_count) - self.pocket_width,
             "side beams": self.side_beam_width,
-            "wall": 0.5 * (self.outside_diameter - self.bore),
+            "wall": self.wall,
         }
 
     @property
     def side_beam_width(self) -> float:
         return 0.5 * (self.width - self.pocket_length)
+
+    def rim_width(self, side: float) -> float:
+        return self.side_beam_width
 
     def in_words(self) -> str:
         return (
@@ -84,17 +79,7 @@ class WindowCage(Cage):
                 f"makes the {pocket_count} crossbeams thinner than zero at the bore; it must be "
                 f"less than {mm(chord)}",
             )
-        half = 0.5 * min(self.pocket_width, self.pocket_length)
-        if self.fillet_radius >= half:
-            yield (
-                "fillet_radius",
-                f"is too big; it must be less than half of the pocket's side, {mm(half)}",
-            )
-        if self.fillet_radius < 2.0 * _SHARPEST * half:
-            yield (
-                "fillet_radius",
-                f"is a sharp corner; it must be at least {mm(2.0 * _SHARPEST * half)}",
-            )
+        yield from self.unfit_fillets(0.5 * min(self.pocket_width, self.pocket_length))
 
     def obstructions(self, bearing: HeldElements) -> Iterator[Objection]:
         for name, size, own, what in (

@@ -1,13 +1,15 @@
 """Defects of window cages: beams displaced, and what all defects of such cages must tell.
 
-Crossbeam k is translated along its own tangent by -delta_q g / cos(pi/Z): the component along
-the tangent of either neighbouring pocket, to which the pocket walls are normal, is delta_q g
-exactly, so both walls stay parallel to themselves, the beam keeps its width and its radius, and
-a section that only translates keeps its volume. g is the defect's shape over the pocket's length;
-a shifted beam is blended to zero over the neighbouring half pockets and towards the end faces.
+Crossbeam k is translated along its own tangent by -delta_q g / cos(pi/Z), of walls that slope
+against the radius by as much more or less as the width then changes by delta_q: the component along
+the tangent of either neighbouring pocket is delta_q g exactly, so both walls stay parallel to
+themselves, the beam keeps its width and its radius, and a section that only translates keeps its
+volume. g is the defect's shape over the pocket's length; a shifted beam is blended to zero over the
+neighbouring half pockets and towards the end faces.
 
-A side beam moves along x by +-delta_p times its shape over the pocket's width, the whole section
-together with its end face: it keeps its width, as a bent beam does, and its volume exactly.
+A side beam moves along x, in a cone along the roller's axis, by +-delta_p times its shape over the
+pocket's width, the whole section together with its end face: it keeps its width, as a bent beam
+does, and its volume exactly.
 """
 
 from __future__ import annotations
@@ -20,8 +22,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from flexcage.cages.window.cage import WindowCage
-from flexcage.cages.window.faces import FACE_SIGN, FACES, face_position
+from flexcage.cages.window.faces import face_position
+from flexcage.cages.window.windowed import FACES, WindowedCage
 from flexcage.core.errors import InputError
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import mm, typeset
@@ -53,31 +55,27 @@ _LEGEND = (
 class WindowDefect(CageDefect):
     """A defect of a window cage: a smooth displacement of its vertices."""
 
-    def displace(self, points: np.ndarray, cage: WindowCage, *, pocket_count: int) -> np.ndarray:
+    def displace(self, points: np.ndarray, cage: WindowedCage, *, pocket_count: int) -> np.ndarray:
         """Displacement (n, 3) [m] of points (n, 3) of the undamaged cage."""
         raise NotImplementedError(f"{type(self).__name__} does not say what it moves")
 
-    def opened(self, sound: CageMesh, mesh: CageMesh) -> CageMesh:
+    def opened(self, sound: CageMesh, mesh: CageMesh, cage: WindowedCage) -> CageMesh:
         """``mesh``, numbered as the ``sound`` one but for doubled vertices, with what it opens."""
         return mesh
 
-    def offsets(self, points: np.ndarray, cage: WindowCage, *, pocket_count: int) -> np.ndarray:
+    def offsets(self, points: np.ndarray, cage: WindowedCage, *, pocket_count: int) -> np.ndarray:
         """Outward displacement (Z, 4, n) [m] of the pockets' faces, free of stress, at ``points``
         (4, n) [m] along them from mid-pocket; as ``displace`` has it in the middle of the wall."""
         found = np.zeros((pocket_count, *points.shape))
-        half = {"side": 0.5 * cage.pocket_length, "beam": 0.5 * cage.pocket_width}
+        ways = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]])
+        half = 0.5 * np.repeat([cage.pocket_width, cage.pocket_length], 2)
         for pocket in range(pocket_count):
-            angle = 2.0 * pi * pocket / pocket_count
-            radial = np.array([0.0, cos(angle), sin(angle)])
-            for i, face in enumerate(FACES):
-                side = face.startswith("side")
-                axes = around(pocket, pocket_count), np.array([1.0, 0.0, 0.0])
-                along, normal = axes if side else axes[::-1]
-                normal = FACE_SIGN[face] * normal
-                middle = cage.mean_radius * radial + half["side" if side else "beam"] * normal
-                places = middle + np.multiply.outer(points[i], along)
+            axes = cage.pocket_frame(pocket, pocket_count)
+            for i, (way, normal) in enumerate(zip(half[:, None] * ways, cage.face_normals)):
+                middle = cage.pocket_middle(pocket, pocket_count) + way @ axes
+                places = middle + np.multiply.outer(points[i], axes[0 if i < 2 else 2])
                 moved = self.displace(places, cage, pocket_count=pocket_count)
-                found[pocket, i] = moved @ normal
+                found[pocket, i] = moved @ (normal @ axes)
         return found
 
     @classmethod
@@ -89,14 +87,14 @@ class WindowDefect(CageDefect):
             defects, cage, pocket_count=pocket_count, pitch_diameter=pitch_diameter,
             element_diameter=element_diameter,
         )  # fmt: skip
-        assert isinstance(cage, WindowCage)
+        assert isinstance(cage, WindowedCage)
         _check_sizes(defects, cage, pocket_count)
 
     @classmethod
     def interference(
         cls, defects: Sequence[Any], cage: Cage, bearing: Bearing
     ) -> Iterator[tuple[str, str]]:
-        assert isinstance(cage, WindowCage)
+        assert isinstance(cage, WindowedCage)
         widths, lengths = pocket_clearances(cage, bearing, defects)
         for what, clearance, size in (
             ("width", widths, bearing.element_diameter),
@@ -126,7 +124,7 @@ class WindowDefect(CageDefect):
         alike: dict[float, list[tuple[float, float]]] = {}
         for (pocket, face), change in changes.items():
             nominal = 0.5 * (cage.pocket_length if face.startswith("side") else cage.pocket_width)
-            position = face_position(mesh, pocket, face, pitch_radius=pitch_radius)
+            position = face_position(mesh, pocket, face, pitch_radius=pitch_radius, cage=cage)
             alike.setdefault(abs(change), []).append((change, position - nominal))
         return [
             Reading(self.type, asked, [copysign(1.0, c) * copysign(1.0, asked) * d for c, d in own])
@@ -157,7 +155,7 @@ class CrossbeamDefect(WindowDefect):
             return np.ones_like(np.asarray(x, float))
         return clamped_beam(x, pocket_length)
 
-    def displace(self, points: np.ndarray, cage: WindowCage, *, pocket_count: int) -> np.ndarray:
+    def displace(self, points: np.ndarray, cage: WindowedCage, *, pocket_count: int) -> np.ndarray:
         """Translation of the crossbeam along its own tangent; > 0 towards pocket k-1."""
         half = pi / pocket_count
         _, radial, tangential = in_pocket_frame(points, self.place, pocket_count).T
@@ -165,17 +163,19 @@ class CrossbeamDefect(WindowDefect):
         field = near * self._field(points, cage, pocket_count)
         angle = 2.0 * half * self.place
         tangent = np.array([0.0, -sin(angle), cos(angle)])
-        return np.multiply.outer(-self.displacement / cos(half) * field, tangent)
+        share = _moved_face(cage, pocket_count)
+        return np.multiply.outer(-self.displacement / share * field, tangent)
 
-    def _field(self, points: np.ndarray, cage: WindowCage, pocket_count: int) -> np.ndarray:
+    def _field(self, points: np.ndarray, cage: WindowedCage, pocket_count: int) -> np.ndarray:
         """Share (n,) of the displacement near the crossbeam: 1 at the middle of its faces."""
-        x = points[:, 0]
+        x = cage.along_crossbeams(points)
         if self.shape == "bent":  # zero with zero slope where the side beams begin
             return self.profile(x, cage.pocket_length)
         reach = 0.5 * cage.pocket_width - cage.fillet_radius  # the fillets move with the beam
         behind = in_pocket_frame(points, self.crossbeam - 1, pocket_count)[:, 2]
         ahead = -in_pocket_frame(points, self.crossbeam, pocket_count)[:, 2]
-        into_side = (np.abs(x) - 0.5 * cage.pocket_length) / cage.side_beam_width
+        rims = np.where(x > 0.0, cage.rim_width(1.0), cage.rim_width(-1.0))
+        into_side = (np.abs(x) - 0.5 * cage.pocket_length) / rims
         return (
             _smooth(1.0 - into_side)
             * _smooth(behind / reach)
@@ -183,11 +183,12 @@ class CrossbeamDefect(WindowDefect):
             * self.profile(x, cage.pocket_length)
         )
 
-    def offsets(self, points: np.ndarray, cage: WindowCage, *, pocket_count: int) -> np.ndarray:
+    def offsets(self, points: np.ndarray, cage: WindowedCage, *, pocket_count: int) -> np.ndarray:
         """Its shape to the corners, in front of pocket k-1 and behind pocket k."""
         found = np.zeros((pocket_count, *points.shape))
         shift = self.displacement * self.profile(points[0], cage.pocket_length)
         before, after = self.pockets(pocket_count)
+        shift = shift * cage.face_normals[0, 2]  # along a face's normal
         found[before, FACES.index("front")] = -shift
         found[after, FACES.index("rear")] = shift
         return found
@@ -238,17 +239,19 @@ class SideBeamDefect(WindowDefect):
         """Of x on its side."""
         return 1.0 if self.side == "+x" else -1.0
 
-    def displace(self, points: np.ndarray, cage: WindowCage, *, pocket_count: int) -> np.ndarray:
+    def displace(self, points: np.ndarray, cage: WindowedCage, *, pocket_count: int) -> np.ndarray:
         """Translation of the side beam along x; > 0 away from the pocket's middle."""
-        x, radial, tangential = in_pocket_frame(points, self.pocket, pocket_count).T
+        radial = in_pocket_frame(points, self.pocket, pocket_count)[:, 1]
+        x, _, tangential = cage.in_pocket(points, self.pocket, pocket_count).T
         here = (self.sign * x > 0.0) & (radial > 0.0)  # others' beams have |t| > half a width
-        shape = np.where(here, clamped_beam(tangential, cage.pocket_width), 0.0)
-        return np.multiply.outer(self.sign * self.displacement * shape, np.array([1.0, 0.0, 0.0]))
+        shape = np.where(here, clamped_beam(tangential, cage.end_width(self.sign)), 0.0)
+        along = cage.pocket_frame(self.pocket, pocket_count)[0]
+        return np.multiply.outer(self.sign * self.displacement * shape, along)
 
-    def offsets(self, points: np.ndarray, cage: WindowCage, *, pocket_count: int) -> np.ndarray:
+    def offsets(self, points: np.ndarray, cage: WindowedCage, *, pocket_count: int) -> np.ndarray:
         found = np.zeros((pocket_count, *points.shape))
         face = FACES.index(f"side{self.side}")
-        shape = clamped_beam(points[face], cage.pocket_width)
+        shape = clamped_beam(points[face], cage.end_width(self.sign))
         found[self.pocket % pocket_count, face] = self.displacement * shape
         return found
 
@@ -271,8 +274,9 @@ class SideBeamDefect(WindowDefect):
         )
 
     def check(self, where: str, cage: Any, count: int) -> Iterator[Finding]:
-        limit, reason = min(0.5 * cage.pocket_length, cage.side_beam_width), "the side beam's width"
-        if limit < cage.side_beam_width:
+        rim = cage.rim_width(self.sign)
+        limit, reason = min(0.5 * cage.pocket_length, rim), "the side beam's width"
+        if limit < rim:
             reason = "half of the pocket's length"
         yield from self.check_number(where, count)
         yield from _check_displacement(self.displacement, where, limit, reason)
@@ -282,6 +286,14 @@ class SideBeamDefect(WindowDefect):
         return find_repeated(
             f"The side beam {d.side} of pocket {d.pocket} is displaced" for d in own
         )
+
+
+def _moved_face(cage: WindowedCage, pocket_count: int) -> float:
+    """How much wider a pocket becomes, measured around, when a crossbeam moves along its own
+    tangent: by cos(pi/Z) where its faces lie along the radius."""
+    normal = cage.face_normals[0]
+    tangent = around(0.5, pocket_count)
+    return float(normal @ cage.pocket_frame(0.0, pocket_count) @ tangent / normal[2])
 
 
 def clamped_beam(s: np.ndarray, length: float) -> np.ndarray:
@@ -309,20 +321,18 @@ def pocket_changes(
 
 
 def pocket_clearances(
-    cage: WindowCage, bearing: Bearing, defects: Sequence[WindowDefect] = ()
+    cage: WindowedCage, bearing: Bearing, defects: Sequence[WindowDefect] = ()
 ) -> tuple[np.ndarray, np.ndarray]:
     """Circumferential and axial clearance (Z,), (Z,) [m] of every pocket, at its middle.
 
     Negative where an element is pinched.
     """
     width, length = pocket_changes(defects, pocket_count=bearing.element_count)
-    return (
-        cage.pocket_width - bearing.element_diameter + width,
-        cage.pocket_length - bearing.element_length + length,
-    )
+    around_, along = cage.clearances(bearing)
+    return around_ + width, along + length
 
 
-def _check_sizes(defects: Sequence[WindowDefect], cage: WindowCage, pocket_count: int) -> None:
+def _check_sizes(defects: Sequence[WindowDefect], cage: WindowedCage, pocket_count: int) -> None:
     """Refuse defects that together leave a pocket no width or length."""
     width, length = pocket_changes(defects, pocket_count=pocket_count)
     for what, sizes in (

@@ -10,6 +10,7 @@ import scipy.sparse as sp
 
 from flexcage.cages.window.cage import WindowCage
 from flexcage.cages.window.defects import WindowDefect
+from flexcage.cages.window.windowed import WindowedCage
 from flexcage.fem.model import FEModel
 from flexcage.modes.basis import FACES, CageInterface, ModeBasis
 from flexcage.modes.interface import (
@@ -21,7 +22,7 @@ from flexcage.modes.interface import (
 )
 from flexcage.modes.pockets import (
     LOADS_PER_POCKET,
-    NORMALS,
+    face_axes,
     face_group,
     hat_weights,
     pocket_frame,
@@ -32,26 +33,29 @@ from flexcage.modes.reduction import CageReduction, Interfaces
 OFFSET_POINTS = 65  # along a face: a bent beam's curve to a quarter of a micrometre for 0.2 mm
 
 
-def face_stations(cage: WindowCage, n_stations: int) -> np.ndarray:
+def face_stations(cage: WindowedCage, n_stations: int) -> np.ndarray:
     """Station coordinates (4, n_st) [m]: centres of equal cells of a face's flat part.
 
     Equal cells make a uniform load equal station forces; beyond the outer stations values are
     constant (clamp the coordinate when interpolating).
     """
     cells = (np.arange(n_stations) + 0.5) / n_stations - 0.5
-    along = [cage.pocket_length - 2.0 * cage.fillet_radius] * 2
-    across = [cage.pocket_width - 2.0 * cage.fillet_radius] * 2
-    return np.outer(along + across, cells)
+    return np.outer(_face_lengths(cage) - 2.0 * cage.fillet_radius, cells)
 
 
-def offset_points(cage: WindowCage) -> np.ndarray:
+def _face_lengths(cage: WindowedCage) -> np.ndarray:
+    """Lengths (4,) [m] of a pocket's faces, corner to corner."""
+    return np.array([*[cage.pocket_length] * 2, cage.end_width(1.0), cage.end_width(-1.0)])
+
+
+def offset_points(cage: WindowedCage) -> np.ndarray:
     """Points (4, OFFSET_POINTS) [m] along the whole length of the faces, corner to corner."""
     unit = np.linspace(-0.5, 0.5, OFFSET_POINTS)
-    return np.outer([cage.pocket_length] * 2 + [cage.pocket_width] * 2, unit)
+    return np.outer(_face_lengths(cage), unit)
 
 
 def face_offsets(
-    cage: WindowCage, points: np.ndarray, *, pocket_count: int, defects: Sequence[WindowDefect]
+    cage: WindowedCage, points: np.ndarray, *, pocket_count: int, defects: Sequence[WindowDefect]
 ) -> np.ndarray:
     """Stress-free outward displacement (Z, 4, n) [m] of the faces at ``points`` (4, n) on them."""
     offset = np.zeros((pocket_count, *points.shape))
@@ -61,7 +65,7 @@ def face_offsets(
 
 
 def rigid_interface(
-    cage: WindowCage,
+    cage: WindowedCage,
     *,
     pocket_count: int,
     defects: Sequence[WindowDefect] = (),
@@ -88,7 +92,7 @@ def cage_interface(
     basis: ModeBasis,
     *,
     pocket_count: int,
-    cage: WindowCage,
+    cage: WindowedCage,
     defects: Sequence[WindowDefect] = (),
     n_stations: int = 7,
     n_land: int = LAND_STATIONS,
@@ -100,7 +104,9 @@ def cage_interface(
     stations, points = face_stations(cage, n_stations), offset_points(cage)
     weights = station_weights(model, stations, pocket_count)
     land_weights = land_station_weights(model, n_land)
-    residual, compliance = _residual_at_stations(basis, weights, pocket_count, n_stations)
+    residual, compliance = _residual_at_stations(
+        basis, weights, pocket_count, face_axes(model).normal
+    )
     return CageInterface(
         stations=stations,
         offset=face_offsets(cage, points, pocket_count=pocket_count, defects=defects),
@@ -115,8 +121,8 @@ def cage_interface(
     )
 
 
-def _patch_half_width(cage: WindowCage) -> float:
-    return 0.25 * (cage.outside_diameter - cage.bore)
+def _patch_half_width(cage: WindowedCage) -> float:
+    return 0.5 * cage.wall
 
 
 def station_weights(model: FEModel, stations: np.ndarray, pocket_count: int) -> sp.csr_matrix:
@@ -138,13 +144,15 @@ def _modes_at_stations(
 
 
 def _residual_at_stations(
-    basis: ModeBasis, weights: sp.csr_matrix, pocket_count: int, n_stations: int
+    basis: ModeBasis, weights: sp.csr_matrix, pocket_count: int, normals: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Outward displacement (Z, 4, n_st, 12) of each pocket's own vectors, and compliances.
 
-    Vectors that the basis lacks are zero: quadratic ones with linear attachments.
+    Vectors that the basis lacks are zero: quadratic ones with linear attachments. ``normals``
+    (4, 3): the faces' normals in their pocket's frame.
     """
     loads = LOADS_PER_POCKET
+    n_stations = weights.shape[0] // (pocket_count * len(FACES))
     at_stations = np.zeros((pocket_count, len(FACES), n_stations, loads))
     compliance = np.zeros((pocket_count, loads, loads))
     if basis.residual is None:
@@ -156,14 +164,15 @@ def _residual_at_stations(
     rows = len(FACES) * n_stations
     for pocket in range(pocket_count):
         own = shapes[:, :, pocket * per : (pocket + 1) * per]
-        normals = np.repeat(NORMALS @ pocket_frame(pocket, pocket_count), n_stations, axis=0)
+        ways = np.repeat(normals @ pocket_frame(pocket, pocket_count), n_stations, axis=0)
         means = averaged(own, weights[pocket * rows : (pocket + 1) * rows])
-        outward = np.einsum("sa,san->sn", normals, means)
+        outward = np.einsum("sa,san->sn", ways, means)
         at_stations[pocket, ..., :per] = outward.reshape(len(FACES), n_stations, per)
     return at_stations, compliance
 
 
-def _reduced(cage: CageReduction) -> CageInterface:
+def reduced_interface(cage: CageReduction) -> CageInterface:
+    """Interface of a reduced cage with windows."""
     return cage_interface(
         cage.model,
         cage.basis,
@@ -182,6 +191,6 @@ def _depends_on(
     return pocket, cage.bore, cage.outside_diameter, offsets
 
 
-WINDOW_INTERFACES = Interfaces(
-    kind=CageInterface, rigid=rigid_interface, reduced=_reduced, depends_on=_depends_on
+WINDOW_INTERFACES: Interfaces[WindowCage] = Interfaces(
+    kind=CageInterface, rigid=rigid_interface, reduced=reduced_interface, depends_on=_depends_on
 )

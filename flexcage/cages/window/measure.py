@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from flexcage.cages.window.cage import WindowCage
 from flexcage.cages.window.defects import WindowDefect, pocket_changes
 from flexcage.cages.window.faces import pocket_size
+from flexcage.cages.window.windowed import WindowedCage
 from flexcage.core.errors import InputError
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.with_defects import with_measured
@@ -14,7 +14,7 @@ from flexcage.mesh.with_defects import with_measured
 
 def measure_file_defects(
     mesh: CageMesh,
-    cage: WindowCage,
+    cage: WindowedCage,
     defects: Sequence[WindowDefect],
     *,
     pitch_radius: float,
@@ -27,7 +27,7 @@ def measure_file_defects(
     z = mesh.pocket_count
     width, length = pocket_changes(defects, pocket_count=z)
     for k in range(z):
-        found = pocket_size(mesh, k, pitch_radius=pitch_radius)
+        found = pocket_size(mesh, k, pitch_radius=pitch_radius, cage=cage)
         wanted = (cage.pocket_width + width[k], cage.pocket_length + length[k])
         for name, is_, should, change in zip(
             ("wide", "long"), found, wanted, (width[k], length[k])

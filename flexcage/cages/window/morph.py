@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from flexcage.cages.window.cage import WindowCage
 from flexcage.cages.window.defects import WindowDefect
+from flexcage.cages.window.windowed import WindowedCage
 from flexcage.core.errors import InputError
 from flexcage.mesh.cage_mesh import CageMesh, signed_volumes
 from flexcage.mesh.doubling import doubled, opened_at
@@ -21,14 +21,14 @@ MOST_CHANGE = 1e-3  # of the volume, by one defect
 
 
 def apply_defects(
-    sound: CageMesh, cage: WindowCage, defects: Sequence[WindowDefect], *, pitch_radius: float
+    sound: CageMesh, cage: WindowedCage, defects: Sequence[WindowDefect], *, pitch_radius: float
 ) -> CageMesh:
     """The undamaged mesh with all defects, each measured as it is added; InputError if inverted."""
 
     def add(mesh: CageMesh, i: int) -> CageMesh:
         step = defects[i].displace(sound.points, cage, pocket_count=sound.pocket_count)
         every = np.append(np.arange(len(step)), np.array(doubled(mesh), int))
-        return defects[i].opened(sound, replace(mesh, points=mesh.points + step[every]))
+        return defects[i].opened(sound, replace(mesh, points=mesh.points + step[every]), cage)
 
     mesh = add_defects(sound, cage, defects, pitch_radius=pitch_radius, add=add)
     report: Sequence[Mapping[str, Any]] = mesh.info["defects"]  # type: ignore[assignment]
@@ -64,26 +64,28 @@ def _refuse_swollen(report: Sequence[Mapping[str, Any]], defects: Sequence[Windo
             )
 
 
-def break_crossbeam(sound: CageMesh, mesh: CageMesh, crossbeam: int) -> CageMesh:
-    """``mesh``, numbered as ``sound`` but for copies, with a crossbeam cut in its middle plane."""
-    x, count = sound.points[:, 0], sound.pocket_count
+def break_crossbeam(
+    sound: CageMesh, mesh: CageMesh, crossbeam: int, cage: WindowedCage
+) -> CageMesh:
+    """``mesh``, numbered as ``sound`` but for copies, with a crossbeam cut across its middle."""
+    x, count = cage.along_crossbeams(sound.points), sound.pocket_count
     tiny = 1e-6 * np.ptp(x)
     cut = np.flatnonzero(_near(sound.points, crossbeam, count) & (np.abs(x) < tiny))
 
     def behind(centres: np.ndarray) -> np.ndarray:
-        return _near(centres, crossbeam, count) & (centres[:, 0] > 0.0)
+        return _near(centres, crossbeam, count) & (cage.along_crossbeams(centres) > 0.0)
 
     return opened_at(sound, mesh, cut, behind)
 
 
-def cut_height(mesh: CageMesh, crossbeam: int) -> float:
+def cut_height(mesh: CageMesh, crossbeam: int, cage: WindowedCage) -> float:
     """Height [m] of the cut through a crossbeam's middle, of vertices that are there twice; 0
     without any."""
     places = mesh.points[list(doubled(mesh))]
     if not len(places):
         return 0.0
-    r = np.hypot(*places[_near(places, crossbeam, mesh.pocket_count), 1:].T)
-    return float(np.ptp(r)) if len(r) else 0.0
+    heights = cage.heights(places[_near(places, crossbeam, mesh.pocket_count)])
+    return float(np.ptp(heights)) if len(heights) else 0.0
 
 
 def _near(points: np.ndarray, crossbeam: int, count: int) -> np.ndarray:

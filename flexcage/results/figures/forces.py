@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from flexcage.results import metrics
 from flexcage.results.contact_activity import EVENTS
 from flexcage.results.figures.figure import FigureTable, Found
 from flexcage.results.figures.part import SettledRun
@@ -84,7 +85,8 @@ def _gaps(part: SettledRun) -> np.ndarray:
     """How far (time, element) [m] the next element is from every one, along the pitch circle; below
     zero by what two are pressed together."""
     psi = part.ds["element_position"].sel(cyl="psi").transpose("time", "element").values
-    ahead = np.diff(psi, axis=1, append=psi[:, :1] + 2.0 * np.pi)
+    following, more = metrics.following_in_row(part.ds)
+    ahead = psi[:, following] + more - psi
     half = 0.5 * part.bearing.pitch_diameter
     return np.asarray(half * (ahead - 2.0 * np.arcsin(0.5 * part.bearing.element_diameter / half)))
 

@@ -1,0 +1,1 @@
+"""Tables of double row cylindrical roller bearings, as CSV files like those of all bearings."""

@@ -1,0 +1,27 @@
+"""Spherical roller bearings."""
+
+from __future__ import annotations
+
+from flexcage.bearings.family import Family
+from flexcage.bearings.spherical_roller import slots
+from flexcage.bearings.spherical_roller.bearing import SphericalRollerBearing
+from flexcage.bearings.spherical_roller.rules import RULES
+
+# the spec that ``flexcage.spec`` shows
+__all__ = ["SphericalRollerBearing"]
+
+FAMILY = Family(
+    name="spherical_roller",
+    types=(SphericalRollerBearing,),
+    rules=RULES,
+    statics=lambda: slots.statics,
+    motion=None,
+    recording=None,
+    variables=None,
+    speed=None,
+    figures=None,
+    rubbing=None,
+    shapes=lambda: slots.shapes,
+    inside=lambda: slots.inside,
+    catalogue=f"{__name__}.catalogue",
+)

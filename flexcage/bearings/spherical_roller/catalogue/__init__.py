@@ -1,0 +1,1 @@
+"""Tables of spherical roller bearings, as CSV files like those of all bearings."""

@@ -1,0 +1,92 @@
+"""What runs of tapered rollers record."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from flexcage.bearings.cylindrical_roller.recording import RECORDING as OF_ROLLERS
+from flexcage.bearings.cylindrical_roller.recording import in_pockets, neighbour_forces
+from flexcage.bearings.tapered_roller.model import TaperedModel
+from flexcage.contacts.cone import ConeSide
+from flexcage.contacts.pocket_wall import FACES, SIDES
+from flexcage.integrate.postures import orientation
+from flexcage.integrate.recording import Recording
+from flexcage.system.layout import Layout
+from flexcage.system.problem import BearingSystem
+
+
+def _variables(bearing: BearingSystem, y: np.ndarray) -> dict[str, np.ndarray]:
+    s, n = bearing.data.samples, len(y)
+    q, u = bearing.layout.q(y)["elements"], bearing.layout.u(y)["elements"]
+    return {
+        "element_position": q[:, :, :3],
+        "element_velocity": u[:, :, :3],
+        "element_quaternion": orientation(q[:, :, 2], q[:, :, 3:]),
+        "element_tilt": q[:, :, 3:5],
+        "element_omega": u[:, :, 3:],
+        "race_force": s.race[:n, :, :, 0],
+        "race_traction": s.race[:n, :, :, 1],
+        "race_moment": s.race[:n, :, :, [3, 2]],
+        "race_slip": s.race[:n, :, :, 4],
+        **(in_pockets(bearing, n) if bearing.layout.has_cage else neighbour_forces(bearing, n)),
+        "rib_force": s.rib[:n],
+    }
+
+
+def overlaps(model: TaperedModel, layout: Layout, y: np.ndarray) -> np.ndarray:
+    """Depths (n, Z, places) of rollers in races, faces of their pockets or next rollers, and the
+    rib; see ``Recording``. Rollers count as spheres about their centres of mass."""
+    q = layout.q(y)
+    x, r, psi, skew, tilt = np.moveaxis(q["elements"][..., :5], -1, 0)
+    at = np.stack([x, r * np.cos(psi), r * np.sin(psi)], axis=-1)
+    in_inner = at - q["inner"][:, None, :3]
+    in_outer = at - q["outer"][:, None, :3]
+    end = model.end
+    if layout.has_cage:
+        others = _in_walls(model, q, at)
+    else:
+        away = np.linalg.norm(np.roll(at, -1, axis=1) - at, axis=-1)
+        others = [2.0 * model.inner.whole - away]
+    none = np.full_like(x, -np.inf)
+    reach = in_inner[..., 0] + end.place * np.cos(skew) * np.cos(tilt)
+    height = np.hypot(in_inner[..., 1], in_inner[..., 2]) + end.place * np.sin(tilt)
+    depths = [
+        _in_race(model.inner, in_inner), _in_race(model.outer, in_outer),
+        *others, none,
+        end.radius - end.cos * height - end.sin * (reach - end.apex),
+    ]  # fmt: skip
+    return np.stack(depths, axis=-1)
+
+
+def _in_race(side: ConeSide, at: np.ndarray) -> np.ndarray:
+    """Depths of spheres about centres of mass at places (..., 3) from the ring's centre."""
+    distance = np.hypot(at[..., 1], at[..., 2])
+    gap: np.ndarray = distance * side.cos + (at[..., 0] - side.apex) * side.sin
+    return side.whole - side.sign * gap
+
+
+def _in_walls(model: TaperedModel, q: dict[str, np.ndarray], at: np.ndarray) -> list[np.ndarray]:
+    """Depths (n, Z) of rollers at places (n, Z, 3) in the four faces of their pockets, where those
+    are widest."""
+    pocket, frames, (cos, sin) = model.pocket, model.frames, model.pocket.azimuth.T
+    turn = Rotation.from_quat(q["quaternion"], scalar_first=True).as_matrix()
+    seen = np.einsum("nzc,ncd->nzd", at - q["cage"][:, None], turn)
+    out = seen[..., 1] * cos + seen[..., 2] * sin - frames.origin
+    place = np.stack([seen[..., 0], out, seen[..., 2] * cos - seen[..., 1] * sin], axis=-1)
+    found = []
+    for f in range(FACES):
+        sgn, side = (1.0 if f % 2 == 0 else -1.0), f >= SIDES
+        reach = sgn * place @ frames.axes[f, 0 if side else 2]
+        reach += pocket.half_roller + sgn * pocket.middle if side else model.inner.whole
+        widest = np.maximum(pocket.offset[:, f].max(axis=1), 0.0)
+        found.append(reach - pocket.half[int(side)] - widest)
+    return found
+
+
+_ROLLERS: Any = OF_ROLLERS
+RECORDING: Recording[Any] = Recording(
+    coords=_ROLLERS.coords, variables=_variables, overlaps=overlaps
+)

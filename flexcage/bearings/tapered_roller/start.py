@@ -1,0 +1,104 @@
+"""The start of a tapered roller bearing's run: its static solution, with the rollers rolling.
+
+The static solution places ring and rollers without friction, centrifugal forces and gyroscopic
+moments included; rollers that bear nothing on the inner race lie on the outer one and on the rib.
+All orbit and turn as cones with one apex do in pure rolling; the cage goes round with them, its
+pockets' middles where the rollers' are, and its modes where rotation holds them.
+"""
+
+from __future__ import annotations
+
+from math import cos, pi, sin
+
+import numpy as np
+
+from flexcage.bearings.tapered_roller.bearing import TaperedRollerBearing
+from flexcage.bearings.tapered_roller.model import TaperedModel
+from flexcage.bearings.tapered_roller.statics import TaperedRollers, meeting
+from flexcage.contacts.laws import STIFFNESS
+from flexcage.system.begun import Advance, Start, StaticStart
+from flexcage.system.layout import Layout
+from flexcage.system.problem import BearingSystem
+from flexcage.system.start import strained_by_rotation
+from flexcage.system.statics.equilibrium import Problem, nearest, settle
+from flexcage.system.statics.slices import rolling_of
+from flexcage.system.statics.solution import StaticSolution
+
+
+def tapered_start(
+    bearing: BearingSystem, *, limit_force: float, statics: StaticStart | None, advance: Advance
+) -> Start:
+    """The static solution, which has to be given, with rollers that roll; no force is limited."""
+    assert statics is not None, "tapered rollers start at their static solution"
+    assert isinstance(bearing.spec, TaperedRollerBearing)
+    solution, spec = statics(), bearing.spec
+    y = placed(bearing, spec, solution)
+    model, layout = bearing.data.model, bearing.layout
+    yd = rolling_cones(model, layout, spec, y)
+    if layout.modes:
+        spin = float(layout.u(y)["omega"][0])
+        layout.q(y)["modes"][:] = strained_by_rotation(model.cage, spin)
+    station = np.zeros_like(bearing.data.work.report.station)
+    return Start(y, yd, (), 0.0, solution.unbalanced, station, solution.warnings)
+
+
+def settled_rollers(
+    model: TaperedModel, spec: TaperedRollerBearing, solution: StaticSolution
+) -> np.ndarray:
+    """Coordinates w (Z, 3) of the rollers of a static solution, as ``statics`` has them."""
+    n, v = len(model.inner.s), solution.displacement - solution.outer
+    stiffness = [model.inner.normal[STIFFNESS], model.outer.normal[STIFFNESS]]
+    rollers = TaperedRollers(
+        bearing=spec, meeting=meeting(spec, n),
+        stiffness=np.array([*np.repeat(stiffness, n), model.end.normal[STIFFNESS]]),
+        rolling=rolling_of(spec, solution.speed, None), rating=spec.dynamic_rating,
+    )  # fmt: skip
+    problem = Problem(rollers, solution.load, np.zeros(5, bool), v, np.zeros(5))
+    at = problem.at_azimuths @ v
+    return settle(problem, at, nearest(problem, at, None, 0.0), 0.0)[0]
+
+
+def placed(
+    bearing: BearingSystem, spec: TaperedRollerBearing, solution: StaticSolution
+) -> np.ndarray:
+    """y with rings and rollers where the static solution has them."""
+    layout, beta = bearing.layout, spec.axis_angle
+    y = np.zeros(layout.size)
+    q = layout.q(y)
+    along, across, lean = settled_rollers(bearing.data.model, spec, solution).T
+    tilt, psi = lean / (0.5 * spec.effective_length) - beta, solution.elements.azimuth
+    x = along * cos(beta) + across * sin(beta)
+    r = spec.pitch_radius - along * sin(beta) + across * cos(beta)
+    outer_x, *radial, skew, turn = solution.outer  # rollers go with the outer race
+    turned = turn * np.cos(psi) - skew * np.sin(psi)
+    x, r = x + outer_x - r * turned, r + radial @ np.stack([np.cos(psi), np.sin(psi)]) + x * turned
+    tilt = tilt + turned
+    q["elements"][:, 0] = x + spec.roller.centre * np.cos(tilt)
+    q["elements"][:, 1] = r + spec.roller.centre * np.sin(tilt)
+    q["elements"][:, 2], q["elements"][:, 4] = 2.0 * pi * np.arange(len(psi)) / len(psi), tilt
+    q["inner"][:5], q["outer"][:5] = solution.displacement, solution.outer
+    if layout.has_cage:
+        q["cage"][0], q["quaternion"][0] = x.mean(), 1.0
+    return y
+
+
+def rolling_cones(
+    model: TaperedModel, layout: Layout, spec: TaperedRollerBearing, y: np.ndarray
+) -> np.ndarray:
+    """Set velocities in y: rollers that orbit and turn about their axes as in pure rolling; returns
+    y' (accelerations zero)."""
+    yd = np.zeros_like(y)
+    q, u, qd = layout.q(y)["elements"], layout.u(y), layout.q(yd)["elements"]
+    speed = float(np.interp(0.0, *model.bodies.speed))
+    rolling = rolling_of(spec, speed, None)
+    orbit, turn = rolling.cage_speed, rolling.element_spin_in_cage
+    skew, tilt = q[:, 3], q[:, 4]
+    u["elements"][:, 2] = q[:, 1] * orbit
+    u["elements"][:, 3] = turn + orbit * np.cos(skew) * np.cos(tilt)
+    u["elements"][:, 4] = -orbit * np.cos(skew) * np.sin(tilt)  # they keep skew and tilt
+    u["elements"][:, 5] = orbit * np.sin(skew)
+    qd[:, 2], qd[:, 5] = orbit, turn
+    u["inner"][3] = layout.q(yd)["inner"][5] = speed
+    if layout.has_cage:
+        u["omega"][0], layout.q(yd)["quaternion"][1] = orbit, 0.5 * orbit
+    return yd

@@ -1,0 +1,275 @@
+"""Tapered rollers in motion: slopes of one energy, balances, the static solution, pure rolling of
+cones, and what the large rib does."""
+
+from __future__ import annotations
+
+from math import cos, sin, tan
+
+import numpy as np
+import pytest
+from bearing_runs import march
+from tapered_parts import (
+    COULOMB,
+    DRY,
+    ELASTIC,
+    FRICTIONLESS,
+    LIGHT,
+    begun,
+    energy,
+    frames,
+    pressed,
+    pushed,
+    tapered,
+    together,
+)
+
+from flexcage.static import solve_static
+from flexcage.system.data import DRAG, NEIGHBOUR_FRICTION, POWERS, RACE_FRICTION, RIB_FRICTION
+from flexcage.system.statics.options import AT_START
+
+PAIRS = ((3, 4), (9, 10), (16, 0))
+LARGE_RIB = 1
+
+
+def test_forces_on_tapered_rollers_and_rings_are_slopes_of_one_energy():
+    """On x, r, azimuth, skew and tilt of every roller and on both rings, tilts too."""
+    _, bearing = tapered(**FRICTIONLESS, **ELASTIC, **DRY, **LIGHT)
+    y, layout = together(bearing, pressed(bearing), PAIRS), bearing.layout
+    rollers, (inner, _), (outer, _) = pushed(bearing, y)
+    report, work = bearing.data.work.report, bearing.data.work.scratch
+    assert (report.race[:, :, 0] > 10.0).sum() > 12 and (report.rib[:, LARGE_RIB] > 1.0).sum() > 4
+    assert (report.pocket_normal[[i for i, _ in PAIRS], 0] > 10.0).all()
+    q, moments = layout.q(y)["elements"], work.wrenches[:, 3:].copy()
+    forces, (_, axes) = work.wrenches[:, :3].copy(), frames(layout.q(y)["elements"])
+    border = {name: v.copy() for name, v in layout.border(work.border).items()}
+
+    def slope(name, index, h):
+        high, low = y.copy(), y.copy()
+        layout.q(high)[name][index] += h
+        layout.q(low)[name][index] -= h
+        return -(energy(bearing, high) - energy(bearing, low)) / (2.0 * h)
+
+    arm = 5e-3
+    for i in (0, 3, 4, 8, 10, 16):
+        r = q[i, 1]
+        own = [
+            *forces[i, :2], (r * forces[i, 2] + moments[i, 0]) / r, moments[i, 1] / arm,
+            axes[i, 2] @ moments[i] / arm,
+        ]  # fmt: skip
+        levers = (1.0, 1.0, r, arm, arm)
+        due = [slope("elements", (i, c), 1e-9 / a) / a for c, a in enumerate(levers)]
+        assert own == pytest.approx(due, abs=3e-5 * np.abs(forces).max()), i
+    for name, force in (("inner", inner), ("outer", outer)):
+        due = [slope(name, c, 1e-9) for c in range(3)]
+        assert force == pytest.approx(due, abs=3e-5 * np.abs(force).max())
+        skew, tilt = layout.q(y)[name][3:5]
+        m = border[name][3:]
+        due = [slope(name, c, 1e-7) for c in (3, 4)]
+        assert [m[1], m[0] * sin(skew) + m[2] * cos(skew)] == pytest.approx(
+            due, abs=3e-5 * np.abs(m).max()
+        )
+        assert abs(tilt) > 0.0
+
+
+def test_all_forces_on_tapered_rollers_balance():
+    """Friction, damping and rolling resistance included, about any point."""
+    _, bearing = tapered(**{"lubricant.oil_fraction": 0.0}, **LIGHT)
+    y, rng = together(bearing, pressed(bearing), PAIRS), np.random.default_rng(7)
+    u = bearing.layout.u(y)
+    u["elements"][:] = rng.standard_normal(u["elements"].shape) * (0.1, 0.1, 2.0, 900, 20, 20)
+    u["inner"][:] = rng.standard_normal(6) * (0.1, 0.1, 0.1, 300.0, 5.0, 5.0)
+    found = pushed(bearing, y)
+    power = bearing.data.work.report.power
+    for place in (RACE_FRICTION, RIB_FRICTION, NEIGHBOUR_FRICTION):
+        assert power[place] < -0.1
+    forces = np.vstack([np.atleast_2d(f) for f, _ in found])
+    moments = np.vstack([np.atleast_2d(m) for _, m in found])
+    assert np.abs(forces.sum(axis=0)).max() < 1e-12 * np.abs(forces).sum()
+    assert np.abs(moments.sum(axis=0)).max() < 1e-12 * np.abs(moments).sum()
+
+
+def test_power_is_what_contacts_of_tapered_rollers_say():
+    """What forces do on all velocities is what contacts lose and take from their energy."""
+    _, bearing = tapered(**LIGHT)
+    y, layout = together(bearing, pressed(bearing), PAIRS), bearing.layout
+    rng, h = np.random.default_rng(3), 1e-9
+    u, q = layout.u(y), layout.q(y)["elements"]
+    u["elements"][:, :3] = rng.standard_normal((layout.elements, 3)) * (0.1, 0.1, 2.0)
+    orbit = u["elements"][:, 2] / q[:, 1]
+    tilt, skew = q[:, 4], q[:, 3]
+    u["elements"][:, 3] = 900.0 * rng.standard_normal(layout.elements)
+    u["elements"][:, 4] = -orbit * np.cos(skew) * np.sin(tilt)  # skew and tilt stay
+    u["elements"][:, 5] = orbit * np.sin(skew)
+    u["inner"][:4] = 0.05, -0.1, 0.1, 300.0
+    spin = layout.q(y)["inner"][3:5]
+    pushed(bearing, y)
+    report, work = bearing.data.work.report, bearing.data.work.scratch
+    _, axes = frames(q)
+    w = np.einsum("zij,zi->zj", axes, u["elements"][:, 3:])
+    power = float((work.wrenches[:, :3] * u["elements"][:, :3]).sum())
+    power += float((work.wrenches[:, 3:] * w).sum())
+    inner = layout.border(work.border)["inner"]
+    axis = [cos(spin[0]) * cos(spin[1]), sin(spin[1]), -sin(spin[0]) * cos(spin[1])]
+    power += float(inner[:3] @ u["inner"][:3] + 300.0 * inner[3:] @ axis)
+    lost = float(report.power[3:].sum() - report.power[DRAG])
+
+    def stored(t):
+        moved = y.copy()
+        at = layout.q(moved)
+        at["elements"][:, :2] += t * u["elements"][:, :2]
+        at["elements"][:, 2] += t * orbit
+        at["inner"][:3] += t * u["inner"][:3]
+        return energy(bearing, moved)
+
+    gained = (stored(h) - stored(-h)) / (2.0 * h)
+    assert abs(gained) > 1.0 and lost < -10.0
+    assert power == pytest.approx(lost - gained, rel=2e-3)
+
+
+@pytest.mark.parametrize("tilt", [0.0, 1e-4])
+def test_a_tapered_bearing_starts_at_its_static_solution(tilt):
+    """Forces of races and rib of exact cones are those of the linear static solution, within what
+    displacements of 15 um on radii of 19 mm make; so all rollers and the ring balance. A ring that
+    is tilted further turns rollers askew, which the static solution leaves out."""
+    case, bearing = tapered(
+        **FRICTIONLESS, **ELASTIC, **DRY, **LIGHT,
+        **{"drive.speed": "6000 rpm", "load.misalignment": tilt},
+    )  # fmt: skip
+    y, yd = begun(case, bearing)
+    rows = bearing.layout.u(bearing.residual(0.0, y, yd, mode=2))
+    report, solution = bearing.data.work.report, solve_static(case, options=AT_START)
+    e, spec = solution.elements, bearing.spec
+    most = e.force.max()
+    assert report.race[:, :, 0] == pytest.approx(e.force, abs=2e-3 * most)
+    along = report.rib[:, LARGE_RIB] * cos(spec.axis_angle - spec.rib_angle)
+    assert along == pytest.approx(e.axial, abs=0.02 * e.axial.max())
+    assert np.abs(rows["elements"][:, :2]).max() < 2e-3 * most
+    assert np.abs(rows["elements"][:, 3:]).max() < 2e-3 * most * spec.effective_length
+    assert np.abs(rows["inner"][:3]).max() < 2e-3 * 3000.0
+    border = bearing.layout.border(bearing.data.work.scratch.border)["inner"]
+    held = border[3:][[1, 2]] + solution.reaction[3:]
+    assert np.abs(held).max() < 2e-3 * 3000.0 * spec.pitch_radius
+
+
+def rolling(spec, speed):
+    """Orbit and spin about the own axis in the cage, by the angles of cones with one apex: points
+    of the roller on the outer race's line stand still."""
+    inner, outer = spec.race_angles
+    orbit = speed * sin(inner) / (sin(inner) + sin(outer))
+    return orbit, -orbit * sin(outer) / sin(spec.half_angle)
+
+
+def test_cones_with_one_apex_roll_without_sliding():
+    """Nothing slides anywhere along the lines under a light load."""
+    changes = {"load.radial": 0.0, "load.axial": "300 N"}
+    case, bearing = tapered(**DRY, **LIGHT, **COULOMB, **changes)
+    y, _ = begun(case, bearing)
+    spec, u = bearing.spec, bearing.layout.u(y)["elements"]
+    orbit, turn = rolling(spec, case.drive.speed)
+    assert u[:, 2] / bearing.layout.q(y)["elements"][:, 1] == pytest.approx(orbit, rel=1e-9)
+    assert u[:, 3] - orbit * np.cos(spec.axis_angle) == pytest.approx(turn, rel=1e-6)
+    bearing.residual(0.0, y, 0.0 * y, mode=2)
+    report = bearing.data.work.report
+    rolled = abs(turn) * 0.5 * spec.roller_diameter
+    force = report.race[:, :, 0].sum()
+    assert force > 1.0
+    assert abs(report.power[RACE_FRICTION]) < 1e-3 * 0.05 * force * rolled
+
+
+def test_the_rib_slides_and_loses_power_as_cones_have_it():
+    """Relative to the inner ring a roller turns about the line on which it rolls; the rib's contact
+    lies above that. Coulomb's friction takes mu Q times the sliding speed."""
+    case, bearing = tapered(**COULOMB, **DRY, **LIGHT)
+    y, _ = begun(case, bearing)
+    bearing.residual(0.0, y, 0.0 * y, mode=2)
+    spec, report, speed = bearing.spec, bearing.data.work.report, case.drive.speed
+    orbit, _ = rolling(spec, speed)
+    about_line = (speed - orbit) * sin(spec.axis_angle) / sin(spec.half_angle)
+    along, across = spec.rib_place
+    edge = 0.5 * spec.roller_diameter - along * tan(spec.half_angle)
+    height = (edge + across) * cos(spec.half_angle)
+    force = report.rib[:, LARGE_RIB].sum()
+    assert 0.5e-3 < height < 1e-3 and force > 100.0
+    due = -0.05 * force * about_line * height
+    assert report.power[RIB_FRICTION] == pytest.approx(due, rel=5e-3)
+    share = -report.power[RIB_FRICTION] / speed  # of the moment on the inner ring
+    assert 0.01 < share < 0.1
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_rib_friction_turns_large_ends_forwards(sense):
+    """The rib runs ahead of the ends and drags them along, so that loaded rollers skew with their
+    large ends ahead; without its friction they do not."""
+    skews = []
+    for law in ("step_coulomb", "none"):
+        case, bearing = tapered(
+            **DRY, **LIGHT,
+            **{"drive.speed": f"{1500.0 * sense} rpm", "contacts.rib.friction.law": law},
+        )  # fmt: skip
+        h = march(bearing, *begun(case, bearing), duration=1.5e-3, method="explicit",
+                  tolerance=1e-8)  # fmt: skip
+        assert h.outcome == 0
+        q = bearing.layout.q(h.y)["elements"]
+        loaded = h.samples.race[-1, :, 0, 0] > 100.0
+        skews.append(sense * q[-1, loaded, 3])
+    dragged, free = skews
+    assert (dragged > 0.0).all() and dragged.mean() > 5.0 * np.abs(free).max()
+
+
+def test_energy_balance_of_tapered_rollers():
+    """What is stored changes by what powers brought; rollers keep to pure rolling."""
+    case, bearing = tapered()
+    h = march(bearing, *begun(case, bearing), duration=2e-3, method="explicit", tolerance=1e-8)
+    assert h.outcome == 0
+    stored = h.samples.energy.sum(axis=1)
+    missing = (stored - stored[0]) - (h.work - h.work[0]).sum(axis=1)
+    assert np.abs(missing).max() < 1e-3 * abs(h.power("drive")[-1])
+    orbit, _ = rolling(bearing.spec, case.drive.speed)
+    loaded = h.samples.race[-1, :, 0, 0] > 100.0
+    last = bearing.layout.u(h.y)["elements"][-1, :, 2] / bearing.layout.q(h.y)["elements"][-1, :, 1]
+    assert last[loaded] == pytest.approx(orbit, rel=3e-3)
+
+
+def miss(bearing, y, yd, rng, alpha):
+    """Largest error of one Newton step back from a displacement of one allowed error everywhere."""
+    weight = bearing.error_weights(1e-8)
+    tested = weight > 0.0
+    d = np.zeros(bearing.layout.size)
+    d[tested] = rng.uniform(-1, 1, tested.sum()) / weight[tested]
+    s = 1e-2
+
+    def along(e):
+        return bearing.residual(0.0, y + e * d, yd + e * alpha * d)
+
+    r = (along(s) - along(-s)) / (2 * s)
+    bearing.residual(0.0, y, yd, mode=1)
+    assert bearing.function("factor")(alpha, bearing.args)
+    bearing.function("backsolve")(alpha, y, r, bearing.args)
+    return np.abs((r + d) * weight).max()
+
+
+@pytest.mark.parametrize("load", [{}, {"load.axial": "6 kN"}, {"load.tilt": "free"}])
+def test_newton_matrix_of_tapered_rollers(load):
+    """Left out: how forces turn with geometry, and how friction follows a light contact."""
+    case, bearing = tapered(**load, **({"load.radial": "300 N"} if "load.tilt" in load else {}))
+    y, yd = begun(case, bearing)
+    rng = np.random.default_rng(2)
+    u = bearing.layout.u(y)["elements"]
+    u += rng.standard_normal(u.shape) * (0.005, 0.005, 0.05, 20.0, 1.0, 1.0)
+    power = np.zeros(len(POWERS))
+    bearing.function("residual")(0.0, y, yd, bearing.args, np.zeros(len(y)), power)
+    bearing.function("note")(0.0, y, bearing.args)
+    assert max(miss(bearing, y, yd, rng, 3e5) for _ in range(5)) < 0.2
+
+
+@pytest.mark.slow
+def test_both_integrators_move_tapered_rollers_alike():
+    states = []
+    for method in ("explicit", "bdf"):
+        case, bearing = tapered()
+        h = march(bearing, *begun(case, bearing), duration=0.5e-3, method=method, tolerance=1e-9)
+        assert h.outcome == 0
+        states.append(bearing.layout.q(h.y)["elements"][-1, :, :5])
+    explicit, implicit = states
+    np.testing.assert_allclose(explicit[:, :2], implicit[:, :2], atol=2e-8)
+    np.testing.assert_allclose(explicit[:, 2:], implicit[:, 2:], atol=3e-6)
