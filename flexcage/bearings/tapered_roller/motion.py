@@ -31,5 +31,6 @@ MOTION = Motion(
     uncaged=((touch_next, shared_equations), ("next roller",)),
     ribs=("small end", "large rib"),
     start=tapered_start,
-    error_weights=_WEIGHTS,  # "auto" takes explicit steps: Newton's matrix lacks the cage's pockets
+    error_weights=_WEIGHTS,
+    implicit_share=1.0,
 )
