@@ -236,7 +236,7 @@ def compose(
         (left, TOP + MAIN[1] - 78, SIDE_WIDTH, 26),
         cmap=sheet.colour_map("viridis"),
         limits=(0.0, top),
-        label=f"normal force of the inner race on a {now.element} [N]   (grey: none)",
+        label=f"normal force of the inner race on a {now.element.split()[-1]} [N]   (grey: none)",
         over=bool(now.inner_load.max() > top * 1.0001),
     )
 

@@ -124,6 +124,8 @@ class StressRecovery:
         return nodal if loads.land_forces is None else nodal + self._on_lands(loads.land_forces)
 
     def _on_lands(self, forces: np.ndarray) -> np.ndarray:
+        if forces.size == 0:  # no station of a bearing without lands
+            return np.zeros((self.land_weights.shape[1], 3))
         on_land = np.einsum("lja,jab->ljb", forces, pocket_frames(forces.shape[1]))
         return np.asarray(self.land_weights.T @ on_land.reshape(-1, 3))
 

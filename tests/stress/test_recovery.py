@@ -103,6 +103,16 @@ def test_land_forces_enter_both_ways_alike(recovery):
     np.testing.assert_allclose(history.envelope, full[history.surface], rtol=2e-3)
 
 
+def test_a_bearing_without_lands_has_no_force_there(recovery):
+    forces = np.zeros((POCKETS, 4, 7, 3))
+    forces[2, 0, :, 2] = 1.0
+    found = [
+        recovery.displacement(CageLoads(station_forces=forces, land_forces=land))
+        for land in (None, np.zeros((2, 0, 3)))
+    ]
+    np.testing.assert_array_equal(*found)
+
+
 def test_a_freely_vibrating_mode_is_recovered_from_its_acceleration(recovery):
     """No force, qddot = -omega^2 q and D qdot = 0 give back Phi q."""
     basis = recovery.basis

@@ -53,12 +53,15 @@ def _curvature(part: SettledRun) -> Found:
 
 
 def _contact_angle(race: int, part: SettledRun) -> Found:
-    """Mean of loaded balls that touch a race, and how far it ranges."""
+    """Mean of loaded balls that touch a race, and how far it ranges; of two rows, whose angles
+    have opposite signs, without these."""
     force, angle = (
         part.whole[name].transpose("time", "element", "race").values[..., race]
         for name in ("race_force", "contact_angle")
     )
     there = angle[(force > 0.0) & part.zone]
+    if "row" in part.whole.coords:
+        there = np.abs(there)
     extremes = np.degrees([there.min(), there.max()]) if there.size else (np.nan, np.nan)
     low, high = (round(float(x), 2) + 0.0 for x in extremes)  # no "-0.00"
     mean = float(there.mean()) if there.size else None
