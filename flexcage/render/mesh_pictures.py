@@ -185,7 +185,7 @@ def _rim(mesh: CageMesh, pocket: int) -> np.ndarray:
     edges = np.concatenate([triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])])
     edges, count = np.unique(np.sort(edges, axis=1), axis=0, return_counts=True)
     edges = edges[count == 1]
-    if parts == POCKET_GROUPS:
+    if parts == POCKET_GROUPS and "land_outer" in mesh.groups:
         return edges[np.isin(edges, mesh.groups["land_outer"]).all(axis=1)]
     r = np.hypot(mesh.points[:, 1], mesh.points[:, 2])
     return edges[r[edges].min(axis=1) > 0.5 * (r.min() + r.max())]

@@ -21,7 +21,7 @@ _RING, _ELEMENT = "#c9d3de", "#f2d9a0"
 def has_section(bearing: Any) -> bool:
     """Is it of rows, and of a family with profiles?"""
     family = FAMILIES.get(bearing.family)
-    return family is not None and family.shapes is not None and hasattr(bearing, "row_places")
+    return family is not None and family.shapes is not None and bearing.row_count > 1
 
 
 def section_picture(bearing: Any, path: str | Path, *, title: str = "", note: str = "") -> Path:

@@ -86,7 +86,8 @@ def summary(computed: Computed) -> str:
 
     bowl = computed.share(CAGE, _bowl)
     return (
-        f"Over the pocket radius the ball-cage force has its least value at 3.46 mm in {100 * bowl:.0f} % "
+        "Over the pocket radius the ball-cage force has its least value at 3.46 mm in "
+        f"{100 * bowl:.0f} % "
         f"of the settings that the text allows: {m(CAGE, FORCE, RADII[0], 1.0)}, "
         f"{m(CAGE, FORCE, BASE, 1.0)} and {m(CAGE, FORCE, RADII[-1], 1.0)} N at 3.43, 3.46 and "
         "3.49 mm (medians), where the paper prints 29.7, 25.1 and 28.7 N. "
