@@ -13,14 +13,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from flexcage.contacts.condensation import condense, touches_more
-from flexcage.contacts.evaluation import REPORT, STORED, TANGENT
-from flexcage.contacts.pocket import face_forces, press_face
+from flexcage.contacts.evaluation import TANGENT
+from flexcage.contacts.pocket import begin_pocket, end_pocket, face_forces, press_face
 from flexcage.contacts.pocket_forces import relative_motion
-from flexcage.contacts.pocket_tangent import clear_tangent, give_pair, soften
+from flexcage.contacts.pocket_tangent import clear_tangent
 from flexcage.contacts.pocket_wall import FACES, SIDES, PocketWork, face_penetrations, pocket_work
-from flexcage.contacts.state import clear
 from flexcage.core.jit import outlined, part, zero
-from flexcage.core.vectors import RIGID, column, combine, dot, put, row, times, turned, xyz
+from flexcage.core.vectors import column, combine, dot, put, row, times, turned, xyz
 
 
 class FaceFrames(NamedTuple):
@@ -98,17 +97,7 @@ def cone_pocket_contact(i, roller, cage, pockets, laws, sl, pw, pair, mode, sums
     pose, whole, D, onset, guess = roller
     data, frames = pockets
     Vc, wc, (q, qd, margin) = cage
-    clear(pair, mode == TANGENT)
-    zero(pw.normal)
-    zero(pw.tangential)
-    if mode >= REPORT:
-        zero(sums)
-        zero(pw.b)
-    if mode == REPORT:
-        zero(pw.slice_N)
-        zero(pw.slice_T)
-        zero(pw.point_N)
-        zero(pw.point_T)
+    begin_pocket(pw, pair, mode, sums)
     centre = xyz(D)
     zero(pw.push)
     searching = True
@@ -130,13 +119,7 @@ def cone_pocket_contact(i, roller, cage, pockets, laws, sl, pw, pair, mode, sums
             set_face(frames, f, pw)
             place, motion = (pose, whole, centre[1]), (rel, spin, qd, onset[f])
             face_forces(i, f, place, motion, data, laws, (sl, pw), pair, mode, sums)
-    if mode == TANGENT and any_contact:
-        if data.soft != 0:
-            soften(RIGID + data.phi_max.shape[0], pw)
-        give_pair(pw, pair)
-    elif mode >= REPORT and data.soft != 0:
-        for l in range(pw.b.shape[0]):
-            sums[STORED] += 0.5 * pw.b[l] * pw.b[l]
+    end_pocket(any_contact, data, pw, pair, mode, sums)
     return any_contact
 
 

@@ -46,17 +46,7 @@ def pocket_contact(i, roller, cage, data, laws, sl, pw, pair, mode, sums):
     """
     pose, Rw, D, onset, guess = roller
     Vc, wc, (q, qd, margin) = cage
-    clear(pair, mode == TANGENT)
-    zero(pw.normal)
-    zero(pw.tangential)
-    if mode >= REPORT:
-        zero(sums)
-        zero(pw.b)
-    if mode == REPORT:
-        zero(pw.slice_N)
-        zero(pw.slice_T)
-        zero(pw.point_N)
-        zero(pw.point_T)
+    begin_pocket(pw, pair, mode, sums)
     # depths before the walls' residual deflection, then its coordinates b (``condensation``)
     centre = xyz(D)
     middle = combine(centre, -data.place[i], row(pw.G, 0))
@@ -80,6 +70,29 @@ def pocket_contact(i, roller, cage, data, laws, sl, pw, pair, mode, sums):
             any_contact = True
             place, motion = (pose, Rw, centre[1]), (rel, spin, qd, onset[f])
             face_forces(i, f, place, motion, data, laws, (sl, pw), pair, mode, sums)
+    end_pocket(any_contact, data, pw, pair, mode, sums)
+    return any_contact
+
+
+@part
+def begin_pocket(pw, pair, mode, sums):
+    """Clear what the faces of a pocket add to."""
+    clear(pair, mode == TANGENT)
+    zero(pw.normal)
+    zero(pw.tangential)
+    if mode >= REPORT:
+        zero(sums)
+        zero(pw.b)
+    if mode == REPORT:
+        zero(pw.slice_N)
+        zero(pw.slice_T)
+        zero(pw.point_N)
+        zero(pw.point_T)
+
+
+@part
+def end_pocket(any_contact, data, pw, pair, mode, sums):
+    """After all faces: the pair's tangent, or the energy of the walls."""
     if mode == TANGENT and any_contact:
         if data.soft != 0:  # b is condensed out of K
             soften(RIGID + data.phi_max.shape[0], pw)
@@ -87,7 +100,6 @@ def pocket_contact(i, roller, cage, data, laws, sl, pw, pair, mode, sums):
     elif mode >= REPORT and data.soft != 0:
         for l in range(pw.b.shape[0]):  # shapes of unit compliance: a wall stores b . b/2
             sums[STORED] += 0.5 * pw.b[l] * pw.b[l]
-    return any_contact
 
 
 @part

@@ -9,6 +9,7 @@ from math import cos, pi, sin, tan
 
 import numpy as np
 import pytest
+from grains import inertia_of
 from scipy.optimize import minimize
 from tapered_bearings import BEARING
 
@@ -237,26 +238,9 @@ def test_what_speed_exerts_is_the_inertia_of_every_grain():
     mass = b.rolling_material.density * R**2 * S
     mass *= b.roller.volume / (R**2 * S).sum()
     own = np.stack([X, R * S * np.cos(T), R * S * np.sin(T)])  # along s, t, and e_psi
-    beta, h = b.axis_angle, 1e-5
-
-    def about(axis, angle, points):
-        c, si = cos(angle), sin(angle)
-        i, j = [(1, 2), (2, 0), (0, 1)][axis]
-        out = points.copy()
-        out[i], out[j] = c * points[i] - si * points[j], si * points[i] + c * points[j]
-        return out
-
-    to_space = np.array([[cos(beta), sin(beta), 0], [-sin(beta), cos(beta), 0], [0, 0, 1.0]])
-
-    def placed(t):
-        spun = about(0, e.rolling.element_spin_in_cage * t, own)
-        return about(0, e.rolling.cage_speed * t,
-                     to_space @ spun + np.array([0.0, b.pitch_radius, 0.0])[:, None])  # fmt: skip
-
-    force = -mass * (placed(h) - 2.0 * placed(0.0) + placed(-h)) / h**2
-    local = to_space.T @ force
-    moment = (own[0] * local[1] - own[1] * local[0]).sum() / (0.5 * b.effective_length)
-    assert local[:2].sum(axis=1) == pytest.approx(e.push[:2], rel=2e-3)
+    push, moment = inertia_of(own, mass, b.axis_angle, b.pitch_radius, e.rolling)
+    moment /= 0.5 * b.effective_length
+    assert push == pytest.approx(e.push[:2], rel=2e-3)
     assert moment == pytest.approx(e.push[2], rel=5e-3)
     assert e.gyroscopic < 0.0 < e.centrifugal
 

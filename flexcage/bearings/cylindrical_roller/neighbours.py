@@ -81,6 +81,37 @@ def pair_of(i, j, q, d):
     return two, ahead
 
 
+@part
+def give_to_next(back, ahead, wrench):
+    """Add what roller i does to the next one, in its own frame, to that one's wrench."""
+    c, s = cos(ahead), sin(ahead)
+    back_in_j = rotated(c, -s, xyz(back)), rotated(c, -s, turn_of(back))
+    add_force_and_moment(wrench, back_in_j[0], back_in_j[1])
+
+
+@part
+def report_touch(i, force, data, sl, rep):
+    """Force, energy and powers of the contact of roller i with the next one."""
+    span = (0, data.s.shape[0])
+    energy, damped = stored_and_damped(span, sl, data.normal[EXPONENT])
+    rep.pocket_normal[i, 0] = force
+    rep.contact[i, NEXT_ROLLER] = 1 if force > 0.0 else 0
+    rep.energy[IN_CONTACTS] += energy
+    rep.power[NEIGHBOUR_DAMPING] += damped
+    rep.power[NEIGHBOUR_FRICTION] += friction_power(span, sl)
+
+
+@part
+def seen_from_next(two, ahead):
+    """A pair as the second roller sees it, in its frame."""
+    c, s = cos(ahead), sin(ahead)
+    return TwoRollers(
+        (two.radii[1], two.radii[0]), rotated(c, -s, two.other_axis), rotated(c, -s, two.axis),
+        rotated(c, -s, times(-1.0, two.place)), rotated(c, -s, times(-1.0, two.velocity)),
+        rotated(c, -s, two.other_spin), rotated(c, -s, two.spin), two.onset,
+    )  # fmt: skip
+
+
 @outlined
 def _touch(i, j, q, d, law, mode):
     """Rollers i and j."""
@@ -97,21 +128,14 @@ def _touch(i, j, q, d, law, mode):
     if depth <= 0.0:
         return
     roller_roller_forces(two, data, Laws(law[RACE_LAW], law[RACE_RUBS]), sl)
-    c, s, back = cos(ahead), sin(ahead), work.T6[0, 0]
+    back = work.T6[0, 0]
     zero(back)
     force = add_to_both(two, data, sl, work.wrenches[i], back)
-    back_in_j = rotated(c, -s, xyz(back)), rotated(c, -s, turn_of(back))
-    add_force_and_moment(work.wrenches[j], back_in_j[0], back_in_j[1])
+    give_to_next(back, ahead, work.wrenches[j])
     if mode == TANGENT:
         _slopes(i, j, two, ahead, d)
     elif mode >= REPORT:
-        span = (0, data.s.shape[0])
-        energy, damped = stored_and_damped(span, sl, data.normal[EXPONENT])
-        rep.pocket_normal[i, 0] = force
-        rep.contact[i, NEXT_ROLLER] = 1 if force > 0.0 else 0
-        rep.energy[IN_CONTACTS] += energy
-        rep.power[NEIGHBOUR_DAMPING] += damped
-        rep.power[NEIGHBOUR_FRICTION] += friction_power(span, sl)
+        report_touch(i, force, data, sl, rep)
 
 
 @part
@@ -119,12 +143,7 @@ def _slopes(i, j, two, ahead, d):
     """Slopes of both rollers' wrenches, each over its own motion."""
     data, sl, tan = fields(d.neighbours), fields(d.slices).row[0], fields(d.tangent)
     slopes_of(two, data, sl, fields(d.pair).W, tan.Krr[i], tan.Crr[i])
-    c, s = cos(ahead), sin(ahead)
     for k in range(data.s.shape[0]):
         sl.t2[k] = -sl.t2[k]  # along the axis the other slides the other way
-    other = TwoRollers(
-        (two.radii[1], two.radii[0]), rotated(c, -s, two.other_axis), rotated(c, -s, two.axis),
-        rotated(c, -s, times(-1.0, two.place)), rotated(c, -s, times(-1.0, two.velocity)),
-        rotated(c, -s, two.other_spin), rotated(c, -s, two.spin), two.onset,
-    )  # fmt: skip
+    other = seen_from_next(two, ahead)
     slopes_of(other, data, sl, fields(d.pair).W, tan.Krr[j], tan.Crr[j])

@@ -40,6 +40,17 @@ def _coords(model: RollerModel) -> dict[str, Any]:
 
 def _variables(bearing: BearingSystem, y: np.ndarray) -> dict[str, np.ndarray]:
     s, n = bearing.data.samples, len(y)
+    return {
+        **on_races(bearing, y),
+        "rib_force": s.rib[:n, :, :2],
+        "counter_rib_force": s.rib[:n, :, 2:] if s.rib.shape[2] > 2 else np.zeros_like(s.rib[:n]),
+        **_spots(bearing.data.model, bearing.layout.q(y)["elements"]),
+    }
+
+
+def on_races(bearing: BearingSystem, y: np.ndarray) -> dict[str, np.ndarray]:
+    """Motion of rollers, and their contacts with races, pockets or next ones."""
+    s, n = bearing.data.samples, len(y)
     q, u = bearing.layout.q(y)["elements"], bearing.layout.u(y)["elements"]
     return {
         "element_position": q[:, :, :3],
@@ -52,9 +63,6 @@ def _variables(bearing: BearingSystem, y: np.ndarray) -> dict[str, np.ndarray]:
         "race_moment": s.race[:n, :, :, [3, 2]],
         "race_slip": s.race[:n, :, :, 4],
         **(in_pockets(bearing, n) if bearing.layout.has_cage else neighbour_forces(bearing, n)),
-        "rib_force": s.rib[:n, :, :2],
-        "counter_rib_force": s.rib[:n, :, 2:] if s.rib.shape[2] > 2 else np.zeros_like(s.rib[:n]),
-        **_spots(bearing.data.model, q),
     }
 
 

@@ -8,31 +8,19 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from flexcage.bearings.cylindrical_roller.recording import RECORDING as OF_ROLLERS
-from flexcage.bearings.cylindrical_roller.recording import in_pockets, neighbour_forces
+from flexcage.bearings.cylindrical_roller.recording import on_races
 from flexcage.bearings.tapered_roller.model import TaperedModel
 from flexcage.contacts.cone import ConeSide
 from flexcage.contacts.pocket_wall import FACES, SIDES
-from flexcage.integrate.postures import orientation
 from flexcage.integrate.recording import Recording
 from flexcage.system.layout import Layout
 from flexcage.system.problem import BearingSystem
 
 
 def _variables(bearing: BearingSystem, y: np.ndarray) -> dict[str, np.ndarray]:
-    s, n = bearing.data.samples, len(y)
-    q, u = bearing.layout.q(y)["elements"], bearing.layout.u(y)["elements"]
     return {
-        "element_position": q[:, :, :3],
-        "element_velocity": u[:, :, :3],
-        "element_quaternion": orientation(q[:, :, 2], q[:, :, 3:]),
-        "element_tilt": q[:, :, 3:5],
-        "element_omega": u[:, :, 3:],
-        "race_force": s.race[:n, :, :, 0],
-        "race_traction": s.race[:n, :, :, 1],
-        "race_moment": s.race[:n, :, :, [3, 2]],
-        "race_slip": s.race[:n, :, :, 4],
-        **(in_pockets(bearing, n) if bearing.layout.has_cage else neighbour_forces(bearing, n)),
-        "rib_force": s.rib[:n],
+        **on_races(bearing, y),
+        "rib_force": bearing.data.samples.rib[: len(y)],
     }
 
 
