@@ -23,13 +23,18 @@ def propose_conical_cage(bearing: Any) -> ProposedCage:
     small, middle, large = (_width(bearing, flank, s * pocket) for s in (0.5, 0.0, -0.5))
     rim = rounded(_RIM * diameter, _STEP)
     cage = ConicalCage(
-        cone_angle=bearing.axis_angle, pitch_diameter=bearing.pitch_diameter,
+        cone_angle=_readable(bearing.axis_angle), pitch_diameter=bearing.pitch_diameter,
         offset=_offset(bearing, 0.5 * middle), thickness=rounded(_WALL * diameter, _SHEET),
         small_rim=rim, large_rim=rim, pocket_length=pocket, pocket_width_small=small,
         pocket_width_large=large, flank_angle=flank,
         fillet_radius=rounded(_FILLET * diameter, _STEP),
     )  # fmt: skip
     return ProposedCage(cage=cage, reasons=_REASONS)
+
+
+def _readable(angle: float) -> float:
+    """The angle [rad] to 1e-4 degrees, as ``contact_angle`` is given."""
+    return radians(round(degrees(angle), 4))
 
 
 def _width(bearing: Any, flank: float, s: float) -> float:
