@@ -36,11 +36,12 @@ class Left:
 FAMILIES = {
     "ball": Left(
         "7010C-PI", "N1013", "BallBearing", "bearing.type 'angular_contact_ball' is not known",
-        "ball|groove|ribbon|crown|7010|6205|7603025",
+        "ball|groove|ribbon|crown|7010|6205|7603025|moving_rows",
     ),
     "cylindrical_roller": Left(
         "N1013", "7010C-PI", "RollerBearing", "which is not registered",
-        r"roller|n1013|\bnu\d|\bnj\d|window|crossbeam|bearing_runs|bearing_of|kernels import land",
+        r"roller|n1013|\bnu\d|\bnj\d|window|crossbeam|bearing_runs|bearing_of|kernels import land|"
+        "moving_rows",
         "roller*.py",
     ),
     "tapered_roller": Left(
