@@ -10,6 +10,7 @@ from scipy.optimize import brentq, minimize
 
 import flexcage
 from flexcage.bearings import statics_of
+from flexcage.bearings.ball.ratings import static_factor
 from flexcage.bearings.double_row_ball.rules import self_aligning_factor
 from flexcage.case import catalogue
 from flexcage.case.new import new_case
@@ -242,6 +243,20 @@ def test_the_standards_factors_of_two_rows(angle, below, x, y, limit):
     much = pair.equivalent_load(1000.0, 1000.0 * limit * 1.01)
     assert (little.radial_factor, much.radial_factor) == pytest.approx((1.0, x), abs=6e-3)
     assert (little.axial_factor, much.axial_factor) == pytest.approx((below, y), abs=8e-3)
+
+
+# the same table, 15 degrees: f0 i Fa/C0r, Y1, Y2, e
+SLIGHT = [(0.357, 1.57, 2.28, 0.40), (1.43, 1.34, 1.93, 0.47), (5.35, 1.12, 1.63, 0.56)]
+
+
+@pytest.mark.parametrize("relative, below, y, limit", SLIGHT)
+def test_factors_of_slight_angles_go_by_the_load_of_both_rows(relative, below, y, limit):
+    pair = replace(PAIR, contact_angle=np.radians(15))
+    f0 = static_factor(pair.gamma, 0.52, 0.53) / 5.0
+    axial = relative * pair.static_rating / (f0 * 2)
+    little, much = (pair.equivalent_load(axial / (limit * k), axial) for k in (0.9, 1.1))
+    assert much.radial_factor == pytest.approx(0.72, abs=6e-3)
+    assert (little.axial_factor, much.axial_factor) == pytest.approx((below, y), rel=0.03)
 
 
 @pytest.mark.parametrize(

@@ -14,6 +14,7 @@ from math import cos, degrees, nan, sin, tan
 import numpy as np
 
 from flexcage.bearings.ball.bearing import BallBearing
+from flexcage.bearings.two_rows import ROWS
 from flexcage.geometry.bearing import EquivalentLoad
 from flexcage.geometry.hertz import PointContact, load_at_pressure
 
@@ -150,6 +151,14 @@ def factors(bearing: BallBearing, axial: float) -> tuple[float, float]:
         for column, x in _RADIAL_FACTORS.items()
     ]
     return _at(angle, np.concatenate([np.array(flat), _STEEP]))
+
+
+def two_row_factors(bearing: BallBearing, axial: float) -> tuple[float, float, float, float]:
+    """Limit e, X and Y beyond it, and Y up to it, of two rows (ISO 281, table 3): X and Y are 2^0.7
+    times those of one row, within 0.7 %. The relative load is f0 i Fa/C0r."""
+    limit, one = factors(bearing, ROWS * axial)
+    rows: float = ROWS**0.7
+    return limit, rows * one, rows * (1.0 - one) / limit, (rows - 1.0) / limit
 
 
 def _at(angle: float, rows: np.ndarray) -> tuple[float, float]:

@@ -1,7 +1,6 @@
 """Ratings and equivalent loads of double row ball bearings, ISO 76:2006 and ISO 281:2007.
 
-Of two rows of angular contact, X and Y of ISO 281's table 3 are 2^0.7 times those of one, to their
-last digit. Self-aligning bearings have factors of their own.
+Self-aligning bearings have factors of their own.
 """
 
 from __future__ import annotations
@@ -15,10 +14,10 @@ from flexcage.bearings.ball.bearing import BallBearing
 from flexcage.bearings.ball.ratings import (
     LUNDBERG_PALMGREN,
     STRIBECK,
-    factors,
     shape_factor,
     size_of,
     static_factor,
+    two_row_factors,
 )
 from flexcage.bearings.double_row_ball.angular_contact import (
     POWER,
@@ -71,9 +70,7 @@ def _equivalent_load(bearing: BallBearing, radial: float, axial: float) -> Equiv
         slope = tan(bearing.nominal_contact_angle)
         limit, x, beyond, below = _LIMIT * slope, _RADIAL, _BEYOND / slope, _BELOW / slope
     else:
-        rows = ROWS**POWER
-        limit, one = factors(bearing, axial / ROWS)
-        x, beyond, below = rows * one, rows * (1.0 - one) / limit, (rows - 1.0) / limit
+        limit, x, beyond, below = two_row_factors(bearing, axial)
     x, y = (x, beyond) if axial > limit * radial else (1.0, below)
     return EquivalentLoad(x * radial + y * axial, x, y, 3.0)
 

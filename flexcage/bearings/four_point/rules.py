@@ -12,8 +12,6 @@ from collections.abc import Iterator, Sequence
 from math import degrees, nan
 from typing import Any
 
-import numpy as np
-
 from flexcage.bearings.ball import checks, lands, ratings
 from flexcage.bearings.four_point.bearing import FourPointContactBearing
 from flexcage.bearings.two_rows import ROWS  # as which both pairs of arcs count
@@ -22,12 +20,7 @@ from flexcage.geometry.bearing import EquivalentLoad, Rules
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.checks import Finding, raise_first
 
-# ISO 281:2007, table 3, two rows of angular contact: contact angle, e, X beyond e, Y up to e
-_TWO_ROWS = np.array([
-    (20.0, 0.57, 0.70, 1.09), (25.0, 0.68, 0.67, 0.92), (30.0, 0.80, 0.63, 0.78),
-    (35.0, 0.95, 0.60, 0.66), (40.0, 1.14, 0.57, 0.55), (45.0, 1.34, 0.54, 0.47),
-])  # fmt: skip
-_Y = np.array([1.63, 1.41, 1.24, 1.07, 0.93, 0.81])  # beyond e
+_LEAST = 20.0  # degrees: makers' factors do not depend on the load
 
 
 def check(bearing: FourPointContactBearing, cage: Cage | None, defects: Sequence[Any]) -> None:
@@ -85,10 +78,9 @@ def equivalent_load(
     angle = degrees(bearing.nominal_contact_angle)
     if bearing.is_thrust:
         return ratings.equivalent_load(bearing, radial, axial)
-    if angle < _TWO_ROWS[0, 0]:
+    if angle < _LEAST:
         return EquivalentLoad(nan, nan, nan, 3.0)
-    columns = (*_TWO_ROWS.T[1:], _Y)
-    limit, x, low, high = (float(np.interp(angle, _TWO_ROWS[:, 0], c)) for c in columns)
+    limit, x, high, low = ratings.two_row_factors(bearing, axial)
     x, y = (x, high) if axial > limit * radial else (1.0, low)
     return EquivalentLoad(x * radial + y * axial, x, y, 3.0)
 
