@@ -27,7 +27,7 @@ def has_section(bearing: Any) -> bool:
 def section_picture(bearing: Any, path: str | Path, *, title: str = "", note: str = "") -> Path:
     """The half of a bearing of rows above its axis, in mm, with the lines of contact; ``note`` says
     whose it is."""
-    shapes, angle = shapes_of(bearing), getattr(bearing, "axis_angle", 0.0)
+    shapes, angle = shapes_of(bearing), bearing.nominal_contact_angle
     with sheet.style():
         figure = sheet.new_figure(2 * _LEFT + _SIDE, _TOP + _SIDE + 90)
         sheet.heading(figure, title or "Section through the axis", sheet.label(note))
@@ -36,16 +36,26 @@ def section_picture(bearing: Any, path: str | Path, *, title: str = "", note: st
             _fill(ax, ring, 0, _RING, lambda points: points)
         for row in bearing.row_places:
             lean = -row.sense * angle
-            middle = np.array([row.place, bearing.pitch_radius])
+            middle = np.array([row.place, 0.5 * bearing.pitch_diameter])
             turn = np.array([[cos(lean), sin(lean)], [-sin(lean), cos(lean)]])
             _fill(ax, shapes.element, 1, _ELEMENT, partial(_placed, turn, middle))
             _line(ax, bearing, row.place, lean)
         ax.axhline(0.0, color=sheet.INK, lw=0.9, ls="-.")
-        ax.set_aspect("equal", adjustable="datalim")
-        ax.set_ylim(-2.0, 520.0 * bearing.outside_diameter)
+        _frame(ax)
         ax.set_xlabel("x [mm]")
         ax.set_ylabel("r [mm]")
         return sheet.save(figure, path)
+
+
+def _frame(ax: Any) -> None:
+    """All that is drawn, to one scale: the axes are a square."""
+    drawn = ax.dataLim
+    half = 0.53 * max(drawn.width, drawn.height)
+    for limits, middle in (
+        (ax.set_xlim, drawn.x0 + 0.5 * drawn.width),
+        (ax.set_ylim, drawn.y0 + 0.5 * drawn.height),
+    ):
+        limits(middle - half, middle + half)
 
 
 def _placed(turn: np.ndarray, middle: np.ndarray, points: np.ndarray) -> np.ndarray:
@@ -71,6 +81,6 @@ def _fill(
 def _line(ax: Any, bearing: Any, place: float, lean: float) -> None:
     """The line of contact, from the axis to the outside of the element."""
     reach = 0.6 * bearing.element_diameter
-    ends = np.array([bearing.pitch_radius + reach * cos(lean), 0.0])
-    x = place - np.tan(lean) * (ends - bearing.pitch_radius)
+    ends = np.array([0.5 * bearing.pitch_diameter + reach * cos(lean), 0.0])
+    x = place - np.tan(lean) * (ends - 0.5 * bearing.pitch_diameter)
     ax.plot(1e3 * x, 1e3 * ends, color=sheet.VERMILION, lw=1.1, ls="--")

@@ -319,3 +319,12 @@ def test_a_moment_is_refused_where_nothing_resists_a_tilt():
     with pytest.raises(flexcage.InputError, match=said):
         solved(ALIGNING, radial=1e3, moment_z=5.0)
     assert solved(ALIGNING, radial=1e3, moment_z=5.0, tilt_stiffness=1e4).displacement[4] != 0.0
+
+
+@pytest.mark.parametrize("designation", ["3205", "NN3010", "1205"])
+def test_static_solutions_are_drawn_with_a_section(designation, tmp_path, capsys):
+    case = tmp_path / "case.toml"
+    assert main(["new", designation, "-o", str(case)]) == 0
+    assert main(["static", str(case), "-o", str(tmp_path / "out")]) == 0
+    assert (tmp_path / "out/section.png").stat().st_size > 20_000
+    assert "limits" not in capsys.readouterr().err
