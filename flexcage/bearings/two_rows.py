@@ -120,7 +120,8 @@ def check(bearing: Any, cage: Cage | None, defects: Sequence[Any]) -> None:
 
 
 def check_cage(bearing: Bearing, cage: Cage | None, defects: Sequence[Any]) -> None:
-    """Raise InputError for the first impossibility in one cage for both rows."""
+    """Raise InputError for the first impossibility in one cage for both rows, or in one for
+    each."""
     if cage is not None:
         raise_first(_find_in_cage(bearing, cage, defects))
 
@@ -151,23 +152,25 @@ def _find_in_rows(b: Any) -> Iterator[Finding]:
 
 def _find_in_cage(b: Any, cage: Cage, defects: Sequence[Any]) -> Iterator[Finding]:
     """``cage`` is that of one row: a common one is both, held together."""
-    if defects:
+    common = cage.count_in(b) == 1
+    if defects and common:
         yield (
             "defects",
             f"A defect, or uneven spacing of pockets, of a cage for two rows of {b.element}s is "
-            "not computed; leave it out.",
+            'not computed; leave it out, or give each row a cage (rows = "each" in [cage]).',
         )
     if b.element == "ball" and cage.guidance != "ball":
         yield (
             "cage.guidance",
-            f"cage.guidance is '{cage.guidance}', but a cage for two rows of balls is guided by "
+            f"cage.guidance is '{cage.guidance}', but cages for two rows of balls are guided by "
             'these; give "ball".',
         )
     if cage.axial_width - cage.axial_reach > 0.5 * b.row_distance:
         yield (
             "cage.width",
-            f"cage.width is {mm(cage.width)}, so the halves of a cage for both rows overlap, which "
-            f"are {mm(b.row_distance)} apart (bearing.row_distance); give a narrower cage.",
+            f"cage.width is {mm(cage.width)}, so the "
+            f"{'halves of a cage for both rows' if common else 'cages of both rows'} overlap, "
+            f"which are {mm(b.row_distance)} apart (bearing.row_distance); give a narrower cage.",
         )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, Protocol
 
 import numpy as np
@@ -132,3 +132,22 @@ class CageInterface:
     offset_at: np.ndarray | None = None  # (4, n_o) [m]
     weights: sp.csr_matrix | None = None  # (Z*4*n_st, n_nodes): station <- nodal displacement
     land_weights: sp.csr_matrix | None = None  # (2*n_land, n_nodes), the same for land stations
+
+
+def mirror_image(interface: CageInterface) -> CageInterface:
+    """The interface of the cage's mirror image in the plane x = 0, whose stations lie evenly to
+    both sides of it: faces at +x and -x change places, and so do stations along crossbeams."""
+    polar = np.array([-1.0, 1.0, 1.0])
+    return replace(
+        interface,
+        offset=_across(interface.offset),
+        modes=_across(interface.modes) * polar[:, None],
+        residual=_across(interface.residual),
+        land=interface.land * polar[:, None],
+    )
+
+
+def _across(values: np.ndarray) -> np.ndarray:
+    """What stations (Z, 4, n, ...) of the faces have, by those of the mirror image."""
+    along, beside = values[:, :2, ::-1], values[:, [3, 2]]
+    return np.concatenate([along, beside], axis=1)
