@@ -96,6 +96,10 @@ class ContactInterface(Protocol):
         """(2, n_land, 3, n) the same on inner and outer land."""
 
     @property
+    def across(self) -> tuple[np.ndarray, np.ndarray]:
+        """Face and station (F, n_st) of the mirror image, in the plane x = 0, of every station."""
+
+    @property
     def weights(self) -> sp.csr_matrix | None:
         """(Z*F*n_st, n_nodes): station <- nodal displacement."""
 
@@ -133,21 +137,24 @@ class CageInterface:
     weights: sp.csr_matrix | None = None  # (Z*4*n_st, n_nodes): station <- nodal displacement
     land_weights: sp.csr_matrix | None = None  # (2*n_land, n_nodes), the same for land stations
 
+    @property
+    def across(self) -> tuple[np.ndarray, np.ndarray]:
+        """Faces at +x and -x change places, and so do stations along crossbeams, which lie evenly
+        to both sides of the middle."""
+        n = self.stations.shape[1]
+        faces = np.repeat([[0], [1], [3], [2]], n, axis=1)
+        return faces, np.where(faces < 2, np.arange(n)[::-1], np.arange(n))
+
 
 def mirror_image(interface: CageInterface) -> CageInterface:
-    """The interface of the cage's mirror image in the plane x = 0, whose stations lie evenly to
-    both sides of it: faces at +x and -x change places, and so do stations along crossbeams."""
+    """The interface of the cage's mirror image in the plane x = 0."""
+    faces, stations = interface.across
     polar = np.array([-1.0, 1.0, 1.0])
+    offset = interface.offset
     return replace(
         interface,
-        offset=_across(interface.offset),
-        modes=_across(interface.modes) * polar[:, None],
-        residual=_across(interface.residual),
+        offset=np.concatenate([offset[:, :2, ::-1], offset[:, [3, 2]]], axis=1),
+        modes=interface.modes[:, faces, stations] * polar[:, None],
+        residual=interface.residual[:, faces, stations],
         land=interface.land * polar[:, None],
     )
-
-
-def _across(values: np.ndarray) -> np.ndarray:
-    """What stations (Z, 4, n, ...) of the faces have, by those of the mirror image."""
-    along, beside = values[:, :2, ::-1], values[:, [3, 2]]
-    return np.concatenate([along, beside], axis=1)

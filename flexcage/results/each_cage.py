@@ -13,6 +13,9 @@ if TYPE_CHECKING:
     import xarray
 
 
+ONE_OF = "one_of_cages"  # attribute of a part: so many cages the run has, whose works are summed
+
+
 def cage_count(ds: xarray.Dataset) -> int:
     """So many cages of a run are told apart: 1, also without any, or one for each row."""
     return int(ds.sizes.get(CAGES, 1))
@@ -36,7 +39,8 @@ def one_cage(ds: xarray.Dataset, k: int) -> xarray.Dataset:
     own = own_elements(ds, k)
     part = ds.isel({CAGES: k, "element": own, "pocket": own}).drop_vars(CAGES, errors="ignore")
     numbers = np.arange(part.sizes["element"])
-    return part.assign_coords(element=numbers, pocket=numbers)
+    part = part.assign_coords(element=numbers, pocket=numbers)
+    return part.assign_attrs({ONE_OF: cage_count(ds)})
 
 
 def own_elements(ds: xarray.Dataset, k: int) -> slice:

@@ -66,6 +66,12 @@ class BallCageInterface:
     open_at: np.ndarray | None = None
 
     @property
+    def across(self) -> tuple[np.ndarray, np.ndarray]:
+        """Of the one face, the station at minus the angle."""
+        n = len(self.stations)
+        return np.zeros((1, n), np.int64), -np.arange(n)[None] % n
+
+    @property
     def normals(self) -> np.ndarray:
         """Outward normals (n_st, 3) of the wall at the stations, in the pocket's frame."""
         return wall_normals(self.stations)
@@ -74,7 +80,7 @@ class BallCageInterface:
 def mirror_image(interface: BallCageInterface) -> BallCageInterface:
     """The interface of the cage's mirror image in the plane x = 0, of the same stations; walls that
     defects let end towards +x do so towards -x."""
-    across, polar = -np.arange(len(interface.stations)), np.array([-1.0, 1.0, 1.0])
+    across, polar = interface.across[1][0], np.array([-1.0, 1.0, 1.0])
     offset = interface.offset
     return replace(
         interface,

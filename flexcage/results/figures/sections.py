@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
 from typing import Any
 
 from flexcage.results.figures.energy import ENERGY
@@ -17,7 +16,7 @@ from flexcage.results.figures.speeds import SPEEDS, STATISTICS, Taken
 from flexcage.results.figures.table import FIGURES
 from flexcage.results.figures.vibration import FREQUENCIES, VIBRATION
 from flexcage.results.registry import NEIGHBOURS
-from flexcage.results.row import SummaryRow
+from flexcage.results.row import SummaryRow, with_others
 from flexcage.results.summary import Section, Summary
 
 
@@ -46,11 +45,8 @@ def _of_each_cage(figures: Iterable[Figure], part: SettledRun) -> Iterator[Summa
         of_cage = figure.needs == CAGED or figure.section == MOTION.section
         parts = part.each if of_cage else (part,)
         rows = [row for one in parts for row in rows_of([figure], one, part.lacks, part.words)]
-        if len(rows) > 1 and rows[0].text != "-":
-            others = ", ".join(row.full_text for row in rows[1:])
-            said = f"of the cage at -x; at +x {others}"
-            rows[0] = replace(rows[0], note="; ".join(filter(None, (rows[0].note, said))))
-        yield from rows[:1]
+        if rows:
+            yield with_others(rows)
 
 
 def _sections(part: SettledRun) -> Iterator[Section]:
