@@ -6,9 +6,9 @@ its dynamic rating by ISO 281.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
-from math import pi, sin, sqrt
+from math import nan, pi, sin, sqrt
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -22,8 +22,10 @@ from flexcage.geometry.checks import Finding, raise_first
 if TYPE_CHECKING:
     from flexcage.contacts.spec import Contacts
     from flexcage.system.statics.elements import Elements
+    from flexcage.system.statics.losses import Losses, LossesOf
     from flexcage.system.statics.options import StaticOptions
     from flexcage.system.statics.rows import Rows
+    from flexcage.system.statics.state import StaticState
 
 ROWS = 2
 _PRESSED = 0.01  # of an element's diameter: presses it hard
@@ -100,6 +102,37 @@ def rows_from(bearing: Any, elements: Elements) -> Rows:
         rows, exponent=bearing.weibull, pressure_limit=bearing.pressure_limit,
         scale=_PRESSED * bearing.element_diameter, carries=bearing.carries,
     )  # fmt: skip
+
+
+def losses_in_rows(of_row: Callable[..., Losses]) -> LossesOf:
+    """Losses of all rows' static solution, by those ``of_row`` that a row's own bearing has. In a
+    row that bears nothing elements go round as the loaded ones do."""
+
+    def losses(bearing: Any, solution: StaticState, **oil: Any) -> Losses:
+        from flexcage.system.statics.losses import together
+
+        rows = _solutions_of_rows(bearing, solution)
+        loaded = [int((row.elements.force > 0.0).all(axis=1).sum()) for row in rows]
+        found: dict[int, Losses] = {}
+        orbit = nan
+        for k in sorted(range(len(rows)), key=lambda k: -loaded[k]):
+            found[k] = of_row(bearing.row, rows[k], orbit=orbit, **oil)
+            orbit = found[k].orbit
+        return together([found[k] for k in range(len(rows))], loaded)
+
+    return losses
+
+
+def _solutions_of_rows(bearing: Any, solution: StaticState) -> list[StaticState]:
+    """The solution with the elements of each row alone, as the row's own bearing has them."""
+    from flexcage.system.statics.rows import loads_of_row
+
+    count, found = bearing.element_count, []
+    for k, place in enumerate(bearing.row_places):
+        own = slice(k * count, (k + 1) * count)
+        loads = loads_of_row(solution.elements, own, place.sense)
+        found.append(replace(solution, elements=loads))
+    return found
 
 
 def static_rating(bearing: Any) -> float:
