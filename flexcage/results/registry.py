@@ -356,7 +356,8 @@ def whose(families: Sequence[str]) -> str:
 PAGE = """# Result variables
 
 What a run records: `run.dataset["NAME"]`, an xarray array with labels and units. Printed by
-`flexcage variables`; forces act *on* the named body.
+`flexcage variables`; forces act *on* the named body. Where each row of elements has a cage, what is
+of a whole cage has the dimension `cage` behind its first one.
 """
 _ON_GRID = {TIME: "", TIME_HF: "at the vibration rate"}
 
