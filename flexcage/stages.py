@@ -75,6 +75,8 @@ def cage_mesh(specs: MeshSections) -> CageMesh:
         return at_hand
     mesh = build_cage_mesh(**specs.cage_shape)
     check_mesh(mesh, where=specs.mesh.file or "mesh")
+    if specs.cages > 1:  # each row has one
+        return mesh
     return in_rows(mesh, specs.bearing.row_places)
 
 
@@ -95,7 +97,7 @@ def cage_reduction(specs: CageSections, mesh: CageMesh) -> CageReduction | None:
 
 
 def _reduced(specs: ModesSections, mesh: CageMesh) -> CageReduction:
-    if specs.bearing.row_count > 1:
+    if specs.bearing.row_count > specs.cages:
         raise InputError(
             "A cage for two rows is a rigid body here, without modes; those of its half are a "
             "single-row bearing's.",
@@ -237,7 +239,9 @@ def _assembled(
         motion = motion.without_cage
     layout = Layout(
         count,
-        bodies_of_bearing(body.modes if body else None, rings.counts if rings else (0, 0)),
+        bodies_of_bearing(
+            body.modes if body else None, rings.counts if rings else (0, 0), specs.cages
+        ),
         names_of(specs.constraints), bends,
     )  # fmt: skip
     return BearingSystem(

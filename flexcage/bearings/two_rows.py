@@ -6,9 +6,9 @@ its dynamic rating by ISO 281.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
-from math import pi, sin, sqrt
+from math import nan, pi, sin, sqrt
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -22,8 +22,10 @@ from flexcage.geometry.checks import Finding, raise_first
 if TYPE_CHECKING:
     from flexcage.contacts.spec import Contacts
     from flexcage.system.statics.elements import Elements
+    from flexcage.system.statics.losses import Losses, LossesOf
     from flexcage.system.statics.options import StaticOptions
     from flexcage.system.statics.rows import Rows
+    from flexcage.system.statics.state import StaticState
 
 ROWS = 2
 _PRESSED = 0.01  # of an element's diameter: presses it hard
@@ -102,6 +104,37 @@ def rows_from(bearing: Any, elements: Elements) -> Rows:
     )  # fmt: skip
 
 
+def losses_in_rows(of_row: Callable[..., Losses]) -> LossesOf:
+    """Losses of all rows' static solution, by those ``of_row`` that a row's own bearing has. In a
+    row that bears nothing elements go round as the loaded ones do."""
+
+    def losses(bearing: Any, solution: StaticState, **oil: Any) -> Losses:
+        from flexcage.system.statics.losses import together
+
+        rows = _solutions_of_rows(bearing, solution)
+        loaded = [int((row.elements.force > 0.0).all(axis=1).sum()) for row in rows]
+        found: dict[int, Losses] = {}
+        orbit = nan
+        for k in sorted(range(len(rows)), key=lambda k: -loaded[k]):
+            found[k] = of_row(bearing.row, rows[k], orbit=orbit, **oil)
+            orbit = found[k].orbit
+        return together([found[k] for k in range(len(rows))], loaded)
+
+    return losses
+
+
+def _solutions_of_rows(bearing: Any, solution: StaticState) -> list[StaticState]:
+    """The solution with the elements of each row alone, as the row's own bearing has them."""
+    from flexcage.system.statics.rows import loads_of_row
+
+    count, found = bearing.element_count, []
+    for k, place in enumerate(bearing.row_places):
+        own = slice(k * count, (k + 1) * count)
+        loads = loads_of_row(solution.elements, own, place.sense)
+        found.append(replace(solution, elements=loads))
+    return found
+
+
 def static_rating(bearing: Any) -> float:
     """C0 of both rows, by that of one."""
     return ROWS * float(bearing.row.static_rating)
@@ -120,7 +153,8 @@ def check(bearing: Any, cage: Cage | None, defects: Sequence[Any]) -> None:
 
 
 def check_cage(bearing: Bearing, cage: Cage | None, defects: Sequence[Any]) -> None:
-    """Raise InputError for the first impossibility in one cage for both rows."""
+    """Raise InputError for the first impossibility in one cage for both rows, or in one for
+    each."""
     if cage is not None:
         raise_first(_find_in_cage(bearing, cage, defects))
 
@@ -151,23 +185,25 @@ def _find_in_rows(b: Any) -> Iterator[Finding]:
 
 def _find_in_cage(b: Any, cage: Cage, defects: Sequence[Any]) -> Iterator[Finding]:
     """``cage`` is that of one row: a common one is both, held together."""
-    if defects:
+    common = cage.count_in(b) == 1
+    if defects and common:
         yield (
             "defects",
             f"A defect, or uneven spacing of pockets, of a cage for two rows of {b.element}s is "
-            "not computed; leave it out.",
+            'not computed; leave it out, or give each row a cage (rows = "each" in [cage]).',
         )
     if b.element == "ball" and cage.guidance != "ball":
         yield (
             "cage.guidance",
-            f"cage.guidance is '{cage.guidance}', but a cage for two rows of balls is guided by "
+            f"cage.guidance is '{cage.guidance}', but cages for two rows of balls are guided by "
             'these; give "ball".',
         )
     if cage.axial_width - cage.axial_reach > 0.5 * b.row_distance:
         yield (
             "cage.width",
-            f"cage.width is {mm(cage.width)}, so the halves of a cage for both rows overlap, which "
-            f"are {mm(b.row_distance)} apart (bearing.row_distance); give a narrower cage.",
+            f"cage.width is {mm(cage.width)}, so the "
+            f"{'halves of a cage for both rows' if common else 'cages of both rows'} overlap, "
+            f"which are {mm(b.row_distance)} apart (bearing.row_distance); give a narrower cage.",
         )
 
 

@@ -167,6 +167,17 @@ def no_body() -> FlexibleBody:
     return rigid_body(np.nan, np.full(3, np.nan), np.full((3, 3), np.nan))
 
 
+def mirrored(data: BodyData) -> BodyData:
+    """The body's mirror image in the plane x = 0, with mirror images of its modes."""
+    polar, axial = np.array([-1.0, 1.0, 1.0]), np.array([1.0, -1.0, -1.0])
+    second = np.array([1.0, 1.0, 1.0, 1.0, -1.0, -1.0])  # of xx, yy, zz, yz, zx, xy
+    return data._replace(
+        c0=data.c0 * polar, C=data.C * polar[:, None], G0=data.G0 * np.outer(polar, polar),
+        S=data.S * second[:, None], X=data.X * axial[:, None],
+        SS=data.SS * second[:, None], XX=data.XX * axial[:, None],
+    )  # fmt: skip
+
+
 def with_point_mass(body: FlexibleBody, mass: float, position: np.ndarray) -> FlexibleBody:
     """The body with a point mass that rides on the undeformed frame (an unbalance).
 
@@ -190,13 +201,17 @@ class FrameWork(NamedTuple):
     c: np.ndarray  # (2, 3) first moment of mass and its rate
     G: np.ndarray  # (2, 6) second moment of mass, and the symmetric part of int p u^T dm
     w: np.ndarray  # (3, 6+n) vectors of the cage's rows
+    # (cages, 6, 6) and (cages, 6, n): ``rigid`` and ``coupled`` of each of several cages
+    each_rigid: np.ndarray
+    each_coupled: np.ndarray
 
 
-def frame_work(n: int) -> FrameWork:
-    z = np.zeros
+def frame_work(n: int, bodies: int = 1) -> FrameWork:
+    """That of one body after the other, all with n modes."""
+    z, several = np.zeros, bodies if bodies > 1 else 0
     return FrameWork(
         z((6, 6)), z((6, n)), z(6 + n), z((6, n)), z((2, 3, n)), z((2, 3)), z((2, 6)),
-        z((3, 6 + n)),
+        z((3, 6 + n)), z((several, 6, 6)), z((several, 6, n)),
     )  # fmt: skip
 
 

@@ -78,11 +78,11 @@ def _check_whether_caged(case: CaseSections) -> None:
 
 def _find_in_rows(case: CaseSections) -> Iterator[Finding]:
     """A common cage that bends."""
-    if case.bearing.row_count > 1 and case.cage_model == "flexible":
+    if case.cage_model == "flexible" and case.bearing.row_count > case.cages:
         yield (
             "cage.model",
             "cage.model is 'flexible', but one cage for two rows is computed as a rigid body "
-            'alone; give model = "rigid" in [cage].',
+            'alone; give model = "rigid" in [cage], or each row a cage (rows = "each").',
         )
 
 

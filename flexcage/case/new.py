@@ -20,9 +20,9 @@ from flexcage.case.sections import NO_CAGE
 from flexcage.case.static import load_static
 from flexcage.core.binding import default_of, did_you_mean, to_table
 from flexcage.core.errors import InputError, in_one_line
-from flexcage.core.units import describe
+from flexcage.core.units import describe, mm
 from flexcage.geometry.bearing import BEARING_TYPES, Bearing, check_type
-from flexcage.geometry.cage import cages_of
+from flexcage.geometry.cage import EACH, cages_of
 from flexcage.geometry.full_complement import CAGED, FILLED, FULL, filled, reason_of_count
 from flexcage.geometry.inference import (
     Candidate,
@@ -42,6 +42,11 @@ _LOAD = 0.05  # of the dynamic rating
 # m/min, speed [rpm] times pitch diameter: moderate for any bearing, and without a cage, where
 # surfaces of neighbours move against each other, for about half of makers' reference speeds
 _SPEED, _UNCAGED_SPEED = 250.0, 125.0
+_BETWEEN_CAGES = 0.2e-3  # m, of those of two rows (assumption)
+_EACH = (
+    "assumption: a cage for each row, as SKF has in its 32 A and NN 30 (its catalogues, from "
+    "memory and not read again)"
+)
 _PASSES = 1.2 * FEWEST  # of elements in the settled part: enough for intervals
 
 
@@ -259,7 +264,7 @@ def _text(
     speed = _speed(bearing.pitch_diameter, caged=caged)
     sections = [
         ("bearing", _entries(bearing, {"type": "", "designation": "", **given, **chosen.reasons})),
-        ("cage", _cage(proposed, bearing, full=outline.complement != CAGED)),
+        ("cage", _cage(proposed, full=outline.complement != CAGED)),
         ("drive", [(
             "speed", f'"{speed} rpm"',
             "assumption: moderate" if caged else "assumption: moderate without a cage",
@@ -287,27 +292,24 @@ def _text(
 
 
 def _in_its_row(proposed: ProposedCage, bearing: Bearing) -> ProposedCage:
-    """The cage of a row, narrower where those of two rows would overlap."""
+    """The cage of a row, of which each has one, narrower where they would overlap."""
     cage = proposed.cage
-    apart = float(np.ptp([row.place for row in bearing.row_places]))
-    if bearing.row_count == 1 or 2.0 * (cage.axial_width - cage.axial_reach) <= apart:
+    if bearing.row_count == 1:
         return proposed
-    reasons = {**proposed.reasons, "width": "assumption: the cages of both rows meet in the middle"}
-    narrower: dict[str, Any] = {"width": round(apart, 6)}  # a key of all that two rows may have
-    return replace(proposed, cage=replace(cage, **narrower), reasons=reasons)
+    apart = float(np.ptp([row.place for row in bearing.row_places])) - _BETWEEN_CAGES
+    reasons, changed = {**proposed.reasons, "rows": _EACH}, dict[str, Any](rows=EACH)
+    if 2.0 * (cage.axial_width - cage.axial_reach) > apart:
+        reasons["width"] = f"assumption: {mm(_BETWEEN_CAGES)} between the cages of both rows"
+        changed["width"] = round(apart, 6)  # a key of all that two rows may have
+    return replace(proposed, cage=replace(cage, **changed), reasons=reasons)
 
 
-def _cage(
-    proposed: ProposedCage | None, bearing: Bearing, *, full: bool
-) -> list[tuple[str, str, str]]:
+def _cage(proposed: ProposedCage | None, *, full: bool) -> list[tuple[str, str, str]]:
     if proposed is None:
         why = "full complement" if full else "assumption: none of usual proportions has room"
         return [("model", f'"{NO_CAGE}"', f"{why}: elements touch the next ones")]
-    model = ("model", '"flexible"', "")
-    if bearing.row_count > 1:
-        model = ("model", '"rigid"', "one cage for both rows, each half as follows")
     return [
-        model,
+        ("model", '"flexible"', ""),
         *_entries(proposed.cage, {"type": "", **proposed.reasons}),
     ]
 

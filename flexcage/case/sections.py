@@ -146,6 +146,11 @@ class PocketSections:
         return self.cage
 
     @property
+    def cages(self) -> int:
+        """So many cages the bearing has: none, one, or one for each row."""
+        return 0 if self.cage is None else self.cage.count_in(self.bearing)
+
+    @property
     def all_defects(self) -> tuple[CageDefect, ...]:
         """Defects that the case names, and those that make its pockets' spacing uneven; none
         without a cage."""

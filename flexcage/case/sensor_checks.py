@@ -88,6 +88,11 @@ def find_in_sensors(
 
 
 def _in_place(case: CaseSections, sensor: Sensor, where: str) -> Iterator[Finding]:
+    if sensor.place == CAGE and case.cages > 1:
+        yield (
+            f"{where}.place",
+            f"{where} is on the cage, but each row has one (cage.rows is 'each'); leave it out.",
+        )
     if sensor.place == CAGE and case.cage is None:
         yield (
             where,

@@ -71,6 +71,8 @@ def _of_no_cage() -> Iterator[tuple[str, str]]:
 
 def _of_cage(case: CaseSections, cage: Cage) -> Iterator[tuple[str, str]]:
     yield "cage.material.expansion", "cages do not grow with temperature"
+    if case.bearing.row_count == 1:
+        yield "cage.rows", f"the bearing has one row of {case.bearing.element}s"
     yield from _on_lands(case.bearing, cage)
     yield from _of_a_rigid_cage(case)
     if not cage.has_faces:

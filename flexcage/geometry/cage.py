@@ -17,6 +17,7 @@ from flexcage.geometry.temperature import material_at
 if TYPE_CHECKING:
     from flexcage.geometry.riveted_joint import JointShape
 
+COMMON, EACH = "common", "each"  # one cage for all rows, one for each
 Objection = tuple[str, str]  # name of a value, and what is wrong with it
 
 
@@ -41,6 +42,7 @@ class HeldElements(Protocol):
     """The elements that a cage holds, as their bearing has them (``geometry.bearing``)."""
 
     element: ClassVar[str]
+    row_count: ClassVar[int]
 
     @property
     def element_count(self) -> int: ...
@@ -83,6 +85,11 @@ class Cage:
         "by default; dimensions, density and strength stay",
     )  # fmt: skip
     guidance: str = option("", doc="what guides the cage radially")
+    rows: str = option(
+        COMMON, choices=(COMMON, EACH),
+        doc="of a bearing with two rows: one cage for both, of which these are the dimensions of "
+        "one row's half, or a cage for each row, the second the mirror image of the first",
+    )  # fmt: skip
     unbalance: float = quantity("g*mm", 0.0, doc="mass-radius product of an unbalance", minimum=0.0)
     unbalance_phase: float = quantity(
         "deg", 0.0, doc="azimuth of the unbalance from pocket 0", when={"unbalance": GIVEN}
@@ -98,6 +105,10 @@ class Cage:
         """The joint at one of its rivets, whose heads have roots of this radius [m]; for cages that
         are ``riveted``."""
         raise NotImplementedError
+
+    def count_in(self, bearing: HeldElements) -> int:
+        """So many of it are in a bearing: one, or one for each row."""
+        return bearing.row_count if self.rows == EACH else 1
 
     @property
     def warm_material(self) -> Material:

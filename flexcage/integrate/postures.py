@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 
 def orientation(azimuth: np.ndarray, angles: np.ndarray) -> np.ndarray:
@@ -16,7 +17,20 @@ def orientation(azimuth: np.ndarray, angles: np.ndarray) -> np.ndarray:
 
 
 def to_body(quaternion: np.ndarray, vectors: np.ndarray) -> np.ndarray:
-    """Space vectors (n, 3) in the body frames of unit quaternions (n, 4), scalar first."""
-    w, v = quaternion[:, :1], -quaternion[:, 1:]
+    """Space vectors (..., 3) in the body frames of unit quaternions (..., 4), scalar first."""
+    w, v = quaternion[..., :1], -quaternion[..., 1:]
     t = 2.0 * np.cross(v, vectors)
     return vectors + w * t + np.cross(v, t)
+
+
+def seen_from_cages(q: dict[str, np.ndarray], places: np.ndarray) -> np.ndarray:
+    """Places (n, Z, 3) of elements in space from the frames of their cages, of which ``q`` has the
+    coordinates (``system.layout.Layout.q``): one, or one for each row."""
+    centre, quaternion = q["cage"], q["quaternion"]
+    if centre.ndim == 2:
+        centre, quaternion = centre[:, None], quaternion[:, None]
+    turned = Rotation.from_quat(quaternion.reshape(-1, 4), scalar_first=True).as_matrix()
+    n, cages = centre.shape[:2]
+    away = places.reshape(n, cages, -1, 3) - centre[:, :, None]
+    seen = np.einsum("nkzc,nkcd->nkzd", away, turned.reshape(n, cages, 3, 3))
+    return seen.reshape(places.shape)

@@ -13,9 +13,11 @@ from flexcage.integrate.recording import Recording
 from flexcage.integrate.rings import ring_records
 from flexcage.results.options import OutputOptions
 from flexcage.results.registry import (
+    CAGES,
     ENERGIES,
     NEIGHBOURS,
     VARIABLES,
+    of_each_cage,
     own_variables,
     variables_of,
 )
@@ -57,7 +59,10 @@ def new_store(
     return RunStore.create(
         path,
         coords=coords,
-        variables=recorded_names(bearing, recording),
+        variables=[
+            of_each_cage(VARIABLES[name]) if layout.cages > 1 else VARIABLES[name]
+            for name in recorded_names(bearing, recording)
+        ],
         n_time=n,
         n_time_hf=n * ratio,
         block=output.block,
@@ -70,13 +75,15 @@ def new_store(
 
 
 def _of_cage(bearing: BearingSystem) -> dict[str, Any]:
-    """Labels of a cage's pockets, faces, modes and stations of its lands."""
-    layout = bearing.layout
+    """Labels of cages' pockets, faces, modes and stations of their lands."""
+    layout, stations = bearing.layout, len(bearing.data.work.report.land_station)
+    attrs = {"long_name": "cage; 0 of the row at -x"}
     return {
+        **({CAGES: ((CAGES,), np.arange(layout.cages), attrs)} if layout.cages > 1 else {}),
         "pocket": np.arange(layout.elements),
         "face": np.array(bearing.motion.faces),
         "mode": np.arange(layout.modes),
-        "land_station": np.arange(len(bearing.data.work.report.land_station)),
+        "land_station": np.arange(stations // max(layout.cages, 1)),
     }
 
 
@@ -151,10 +158,11 @@ def _common(bearing: BearingSystem, y: np.ndarray, yd: np.ndarray) -> dict[str, 
 
 
 def _cage(bearing: BearingSystem, y: np.ndarray, yd: np.ndarray) -> dict[str, np.ndarray]:
-    """The cage's motion, and the forces of its pockets and lands."""
+    """The motion of cages, and the forces of their pockets and lands."""
     layout, s, n = bearing.layout, bearing.data.samples, len(y)
     q, u, a = layout.q(y), layout.u(y), layout.u(yd)
-    quaternion = q["quaternion"] / np.linalg.norm(q["quaternion"], axis=1, keepdims=True)
+    quaternion = q["quaternion"] / np.linalg.norm(q["quaternion"], axis=-1, keepdims=True)
+    each = (layout.cages,) if layout.cages > 1 else ()
     arrays = {
         "cage_position": q["cage"],
         "cage_velocity": u["cage"],
@@ -166,8 +174,8 @@ def _cage(bearing: BearingSystem, y: np.ndarray, yd: np.ndarray) -> dict[str, np
         "pocket_peak": s.pocket_peak[:n],
         "pocket_friction": s.pocket_friction[:n],
         "station_force": s.station[:n],
-        "land_force": s.land[:n],
-        "land_station_force": s.land_station[:n],
+        "land_force": s.land[:n].reshape(n, *each, 3),
+        "land_station_force": s.land_station[:n].reshape(n, *each, -1, 2),
     }
     if layout.modes:
         arrays["modal_coordinates"] = q["modes"]

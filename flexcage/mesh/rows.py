@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from types import MappingProxyType
 
 import numpy as np
@@ -11,6 +12,18 @@ from flexcage.geometry.bearing import RowPlace
 from flexcage.mesh.cage_mesh import CageMesh
 
 _SWAPPED = {"side+x": "side-x", "side-x": "side+x", "end+x": "end-x", "end-x": "end+x"}
+
+
+def mirror_image(mesh: CageMesh) -> CageMesh:
+    """The mesh in a mirror in the plane x = 0."""
+    return replace(
+        mesh,
+        points=_moved(mesh.points, RowPlace(), mirrored=True),
+        tets=mesh.tets[:, [1, 0, 2, 3]],
+        groups=MappingProxyType(
+            {_in_mirror(name): triangles[:, ::-1] for name, triangles in mesh.groups.items()}
+        ),
+    )
 
 
 def in_rows(mesh: CageMesh, places: Sequence[RowPlace]) -> CageMesh:
@@ -45,6 +58,12 @@ def _name(name: str, row: int, count: int) -> str:
     if pocket.startswith("pocket"):
         return f"pocket{int(pocket[6:]) + row * count}_{_SWAPPED.get(part, part)}"
     return _SWAPPED.get(name, name)
+
+
+def _in_mirror(name: str) -> str:
+    """What a group of a cage is called in its mirror image."""
+    pocket, _, part = name.partition("_")
+    return f"{pocket}_{_SWAPPED.get(part, part)}" if part else _SWAPPED.get(name, name)
 
 
 def _moved(points: np.ndarray, place: RowPlace, *, mirrored: bool) -> np.ndarray:

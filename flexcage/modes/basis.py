@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, Protocol
 
 import numpy as np
@@ -96,6 +96,10 @@ class ContactInterface(Protocol):
         """(2, n_land, 3, n) the same on inner and outer land."""
 
     @property
+    def across(self) -> tuple[np.ndarray, np.ndarray]:
+        """Face and station (F, n_st) of the mirror image, in the plane x = 0, of every station."""
+
+    @property
     def weights(self) -> sp.csr_matrix | None:
         """(Z*F*n_st, n_nodes): station <- nodal displacement."""
 
@@ -132,3 +136,25 @@ class CageInterface:
     offset_at: np.ndarray | None = None  # (4, n_o) [m]
     weights: sp.csr_matrix | None = None  # (Z*4*n_st, n_nodes): station <- nodal displacement
     land_weights: sp.csr_matrix | None = None  # (2*n_land, n_nodes), the same for land stations
+
+    @property
+    def across(self) -> tuple[np.ndarray, np.ndarray]:
+        """Faces at +x and -x change places, and so do stations along crossbeams, which lie evenly
+        to both sides of the middle."""
+        n = self.stations.shape[1]
+        faces = np.repeat([[0], [1], [3], [2]], n, axis=1)
+        return faces, np.where(faces < 2, np.arange(n)[::-1], np.arange(n))
+
+
+def mirror_image(interface: CageInterface) -> CageInterface:
+    """The interface of the cage's mirror image in the plane x = 0."""
+    faces, stations = interface.across
+    polar = np.array([-1.0, 1.0, 1.0])
+    offset = interface.offset
+    return replace(
+        interface,
+        offset=np.concatenate([offset[:, :2, ::-1], offset[:, [3, 2]]], axis=1),
+        modes=interface.modes[:, faces, stations] * polar[:, None],
+        residual=interface.residual[:, faces, stations],
+        land=interface.land * polar[:, None],
+    )

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -39,6 +39,8 @@ if TYPE_CHECKING:
 _OF_MOTION = ("mesh", "bearing", "orbit", "histories", "spectra")
 _OF_CAGE = ("mesh", "orbit")  # of these
 _OF_STRESS = ("modes", "stress_peak", "stress_pocket", "stress_envelope", "deformation")
+#: Of these one for each row, where each row has a cage.
+_OF_A_ROW = ("orbit", "stress_peak", "stress_pocket", "stress_envelope", "deformation")
 _UNSTRESSED = ("mesh", "orbit", "spectra")  # that are the same with and without stress
 FORMATS = ("png", "svg", "pdf")  # of curves; scenes are .png
 
@@ -86,6 +88,7 @@ class Scene:
     guide: str  # the land's ring, "inner" or "outer"
     settle: float
     stress: StressPictures | None = None
+    rows: Sequence[Scene] = ()  # of each row with its cage, where each has one
 
     @property
     def label(self) -> str:
@@ -118,16 +121,31 @@ def register_picture(
     add(PICTURES, name, (draw, needs_stress), what="picture")
 
 
-def picture_names(*, caged: bool = True, flexible: bool, resolved: bool) -> list[str]:
-    """Names of the pictures of a run: with a cage, that is ``flexible``, its spectra
-    ``resolved``."""
+def picture_names(
+    *, caged: bool = True, flexible: bool, resolved: bool, rows: int = 0
+) -> list[str]:
+    """Names of the pictures of a run: with a cage, that is ``flexible``, its spectra ``resolved``;
+    of so many ``rows`` that have a cage each."""
     names = [name for name in _OF_MOTION if resolved or name != "spectra"]
     names = [name for name in names if caged or name not in _OF_CAGE]
     names += _OF_STRESS if flexible else ()
+    names = [name for name in names if not rows or name not in _OF_A_ROW]
+    of_rows = [name for name in _OF_A_ROW if name == "orbit" or flexible]
     return [
         *names,
+        *(of_row(name, k) for k in range(rows) for name in of_rows),
         *(n for n, (_, needs_stress) in PICTURES.items() if flexible or not needs_stress),
     ]
+
+
+def of_row(name: str, k: int) -> str:
+    """What a picture of the cage of row k is called."""
+    return f"{name}_row{k}"
+
+
+def _of_any(name: str) -> str:
+    """What such a picture is called in a run of one cage."""
+    return re.sub(r"_row\d$", "", name)
 
 
 #: Pictures, the animation included, that change with each value of a ``Look``.
@@ -141,12 +159,12 @@ _LOOKS = {
 def changed_by(look: Iterable[str], names: Sequence[str]) -> list[str]:
     """Those of ``names`` that change with these values of a ``Look``."""
     changed = {name for value in look for name in _LOOKS[value]}
-    return [name for name in names if name in changed]
+    return [name for name in names if _of_any(name) in changed]
 
 
 def need_stress(only: Sequence[str]) -> bool:
     """Whether pictures of these names, or all without any, show a flexible cage's stress."""
-    return not only or not set(only) <= set(_UNSTRESSED)
+    return not only or not {_of_any(name) for name in only} <= set(_UNSTRESSED)
 
 
 def check_names(only: Sequence[str], known: Sequence[str]) -> None:
@@ -201,8 +219,11 @@ def draw_album(
     folder.mkdir(parents=True, exist_ok=True)
     look = look or Look()
     drawings = [*_geometry(scene, look), *_motion(scene, format)]
-    if scene.stress is not None:
-        drawings += _stress(scene, scene.stress, look)
+    for k, own in enumerate(scene.rows or (scene,)):
+        found = [*_orbits(own, format), *(_stress(own, own.stress, look) if own.stress else ())]
+        drawings += [
+            replace(each, name=of_row(each.name, k)) if scene.rows else each for each in found
+        ]
     for name, (draw, needs_stress) in PICTURES.items():
         if scene.stress is not None or not needs_stress:
             drawings.append(Drawing(name, "png", partial(_draw_own, name, draw, scene)))
@@ -240,8 +261,9 @@ def _geometry(scene: Scene, look: Look) -> Iterator[Drawing]:
         yield Drawing("mesh", "png", partial(
             mesh_picture, scene.mesh, defects=scene.defects, azimuth=look.view, note=scene.label,
         ))  # fmt: skip
-    if scene.stress is not None:
-        s, b = scene.stress, scene.stress.basis
+    stressed = scene.rows[0] if scene.rows else scene
+    if stressed.stress is not None:
+        s, b = stressed.stress, stressed.stress.basis
         yield Drawing("modes", "png", partial(
             mode_sheet, s.nodes, s.cells, b.shapes, b.frequencies, b.kind, note=scene.label,
         ))  # fmt: skip
@@ -249,7 +271,7 @@ def _geometry(scene: Scene, look: Look) -> Iterator[Drawing]:
 
 def _motion(scene: Scene, format: str) -> Iterator[Drawing]:
     from flexcage.render.bearing_pictures import bearing_picture
-    from flexcage.render.curves import histories, orbit
+    from flexcage.render.curves import histories
     from flexcage.render.spectra import spectra_picture
 
     b, ds = scene.bearing, scene.dataset
@@ -259,11 +281,6 @@ def _motion(scene: Scene, format: str) -> Iterator[Drawing]:
         bearing_picture, ds, b, index, **_cage_of(scene),
         load=tuple(scene.loads[index, 1:]), axial=float(scene.loads[index, 0]), note=scene.label,
     ))  # fmt: skip
-    if scene.mesh is not None:
-        yield Drawing("orbit", format, partial(
-            orbit, ds, clearance=scene.clearance, guide=scene.guide, settle=scene.settle,
-            note=scene.label,
-        ))  # fmt: skip
     yield Drawing("histories", format, partial(
         histories, ds, bearing=numbers, root_stress=_root_stress(scene), loads=scene.loads,
         element=scene.followed, settle=scene.settle, note=scene.label,
@@ -271,6 +288,17 @@ def _motion(scene: Scene, format: str) -> Iterator[Drawing]:
     if spectra.resolves(settled(ds, scene.settle), numbers):
         yield Drawing("spectra", format, partial(
             spectra_picture, ds, bearing=numbers, settle=scene.settle, note=scene.label,
+        ))  # fmt: skip
+
+
+def _orbits(scene: Scene, format: str) -> Iterator[Drawing]:
+    """The orbit of the cage's centre, if there is a cage."""
+    from flexcage.render.curves import orbit
+
+    if scene.mesh is not None:
+        yield Drawing("orbit", format, partial(
+            orbit, scene.dataset, clearance=scene.clearance, guide=scene.guide,
+            settle=scene.settle, note=scene.label,
         ))  # fmt: skip
 
 

@@ -17,7 +17,7 @@ from flexcage.render.bearing_pictures import (
     bearing_layers,
     bearing_title,
     bearing_view,
-    cut_cage,
+    cut_cages,
     instant,
     label_bearing,
     load_limit,
@@ -25,6 +25,7 @@ from flexcage.render.bearing_pictures import (
 from flexcage.render.scene import ring_size, ring_view, surface_of
 from flexcage.render.stage import shoot
 from flexcage.render.stress_pictures import Field, field_layers, nice_scale
+from flexcage.results.each_cage import cage_count
 
 if TYPE_CHECKING:
     import xarray
@@ -151,7 +152,7 @@ def animate_bearing(
 
 
 def _bearing_frames(ds, bearing, indices, cage, loads, top, title, note) -> Iterator[np.ndarray]:
-    cut = cut_cage(*cage)
+    cut = cut_cages(cage[0], cage[1], cage_count(ds))
     view = bearing_view(bearing)
     with sheet.style():
         for index in indices:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -26,6 +27,7 @@ from flexcage.render.shapes import Shapes, shapes_of
 from flexcage.render.solids import revolved, rotation
 from flexcage.render.stage import Picture, shoot
 from flexcage.results import metrics
+from flexcage.results.each_cage import cage_count
 from flexcage.results.registry import NEIGHBOURS
 
 if TYPE_CHECKING:
@@ -68,7 +70,7 @@ def bearing_picture(
     now = instant(ds, index)
     top = limit if limit is not None else load_limit(ds)
     title = title or bearing_title(ds)
-    cage = cut_cage(cage_points, cage_tets)
+    cage = cut_cages(cage_points, cage_tets, cage_count(ds))
     layers = bearing_layers(now, bearing, cage, top)
     picture = shoot(layers, bearing_view(bearing), MAIN)
     with sheet.style():
@@ -148,11 +150,11 @@ def bearing_view(bearing: Bearing) -> View:
 
 
 def bearing_layers(
-    now: Instant, bearing: Bearing, cage: pyvista.PolyData | None, top: float
+    now: Instant, bearing: Bearing, cages: Sequence[pyvista.PolyData], top: float
 ) -> list[Layer]:
-    """Rings and cage cut at mid-width, so that the elements stand free; the rings translucent.
+    """Rings and cages cut at mid-width, so that the elements stand free; the rings translucent.
 
-    ``cage`` is the cut cage at rest, in its own frame.
+    ``cages`` are the cut cages at rest, each in its own frame.
     """
     shapes = shapes_of(bearing)
     inner, outer = revolved(shapes.inner), revolved(shapes.outer)
@@ -172,8 +174,8 @@ def bearing_layers(
             elements = _elements(now, shapes, chosen)
             layers.append(body_layer(elements, **style))
             layers.append(outline_layer(elements, colour="#30363c", width=0.225))
-    if cage is not None and now.cage is not None:
-        moved, (place, quaternion) = cage.copy(), now.cage
+    for cage, place, quaternion in zip(cages, *now.cages, strict=True):
+        moved = cage.copy()
         moved.points = cage.points @ rotation(quaternion).T + place
         layers.append(body_layer(moved, colour=BRASS))
         layers.append(outline_layer(moved, colour="#6b5320", width=0.225, opacity=0.8))
@@ -203,12 +205,29 @@ def _elements(now: Instant, shapes: Shapes, chosen: np.ndarray) -> pyvista.PolyD
     return pv.merge(parts) if len(parts) > 1 else parts[0]
 
 
-def cut_cage(points: np.ndarray | None, tets: np.ndarray | None) -> pyvista.PolyData | None:
-    """Surface of a cage cut at mid-width, or None without a mesh."""
+def cut_cages(
+    points: np.ndarray | None, tets: np.ndarray | None, count: int
+) -> list[pyvista.PolyData]:
+    """Surfaces of a cage, or of ``count`` cages, cut at mid-width; none without a mesh."""
+    normal = (-1.0, 0.0, 0.0)
+    return [
+        whole.clip_closed_surface(normal=normal, origin=(0.0, 0.0, 0.0))
+        for whole in whole_cages(points, tets, count)
+    ]
+
+
+def whole_cages(
+    points: np.ndarray | None, tets: np.ndarray | None, count: int
+) -> list[pyvista.PolyData]:
+    """Surfaces of a cage, or of ``count`` cages of which the second is the mirror image; none
+    without a mesh."""
     if points is None or tets is None:
-        return None
-    whole = surface_of(tets[:, :4]).polydata(points).triangulate()
-    return whole.clip_closed_surface(normal=(-1.0, 0.0, 0.0), origin=(0.0, 0.0, 0.0))
+        return []
+    own, corners = tets[:, :4], ([0, 1, 2, 3], [1, 0, 2, 3])
+    return [
+        surface_of(own[:, corners[k]]).polydata(points * ((-1.0) ** k, 1.0, 1.0)).triangulate()
+        for k in range(count)
+    ]
 
 
 def compose(

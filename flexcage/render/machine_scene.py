@@ -11,10 +11,11 @@ import numpy as np
 
 from flexcage.geometry.bearing import Bearing
 from flexcage.render import sheet
-from flexcage.render.bearing_pictures import bearing_layers, instant, load_limit
-from flexcage.render.scene import Layer, View, body_layer, surface_of
+from flexcage.render.bearing_pictures import bearing_layers, instant, load_limit, whole_cages
+from flexcage.render.scene import Layer, View, body_layer
 from flexcage.render.solids import revolved
 from flexcage.render.stage import shoot
+from flexcage.results.each_cage import cage_count
 
 if TYPE_CHECKING:
     import pyvista
@@ -90,12 +91,12 @@ def _solid(begin: float, end: float, outside: float, bore: float, colour: str) -
 
 def _placed(each: BearingInPlace, index: int, top: float) -> list[Layer]:
     """Layers of a bearing's run where it stands on the shaft."""
-    cage = None
-    if each.points is not None and each.tets is not None:
-        whole = surface_of(each.tets[:, :4]).polydata(each.points).triangulate()
-        near = -1.0 if each.reversed else 1.0  # of its own z, what the viewer has before him
-        cage = whole.clip_closed_surface(normal=(0.0, 0.0, -near), origin=(0.0, 0.0, 0.0))
-    found = bearing_layers(instant(each.data, index), each.bearing, cage, top)
+    near = -1.0 if each.reversed else 1.0  # of its own z, what the viewer has before him
+    cages = [
+        whole.clip_closed_surface(normal=(0.0, 0.0, -near), origin=(0.0, 0.0, 0.0))
+        for whole in whole_cages(each.points, each.tets, cage_count(each.data))
+    ]
+    found = bearing_layers(instant(each.data, index), each.bearing, cages, top)
     return [replace(layer, mesh=_moved(layer.mesh, each)) for layer in found]
 
 

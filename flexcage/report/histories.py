@@ -58,7 +58,7 @@ def history_charts(scene: Scene, numbers: BearingNumbers) -> list[Chart]:
             chart.figures[0][1].add_vrect(
                 t[0], end, fillcolor=_LEFT_OUT, layer="below", line_width=0
             )
-    return [*charts, *([_orbit(scene)] if metrics.caged(ds) else ())]
+    return [*charts, *(_orbit(own) for own in scene.rows or (scene,) if metrics.caged(ds))]
 
 
 def _ms(ds: xarray.Dataset) -> np.ndarray:

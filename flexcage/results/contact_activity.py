@@ -130,7 +130,8 @@ def _from_samples(ds: xarray.Dataset, step: float) -> ContactSeries:
     closed = ds["pocket_force"].transpose("time", "pocket", "face").values > TOUCHING
     onsets = np.zeros(closed.shape[:2], np.int64)
     onsets[1:] = (closed[1:] & ~closed[:-1]).sum(axis=2)
-    touched = closed.any(axis=(1, 2))
+    touched = np.asarray(closed.any(axis=(1, 2)))
     if "land_force" in ds:
-        touched |= np.linalg.norm(ds["land_force"].values, axis=1) > TOUCHING
+        force = np.linalg.norm(ds["land_force"].transpose("time", ..., "axis").values, axis=-1)
+        touched |= (force > TOUCHING).reshape(len(touched), -1).any(axis=1)
     return ContactSeries(onsets, (~touched).astype(float), step, SAMPLES)

@@ -15,6 +15,8 @@ import numpy as np
 
 from flexcage.core.errors import InputError
 from flexcage.core.wings import FAMILIES
+from flexcage.results.each_cage import cage_count, one_cage
+from flexcage.results.registry import CAGES
 
 if TYPE_CHECKING:
     import xarray
@@ -91,11 +93,17 @@ def caged(ds: xarray.Dataset) -> bool:
 
 
 def of_cage(ds: xarray.Dataset, name: str) -> xarray.DataArray:
-    """A variable of the cage; InputError for a run without one."""
+    """A variable of the cage; InputError for a run without one, or with one for each row."""
     if name not in ds and not caged(ds):
         raise InputError(
             f"The run's bearing has no cage, and so no '{name}'; neighbour_force has how elements "
             "press each other.",
+            where=name,
+        )
+    if CAGES in ds[name].dims:
+        raise InputError(
+            f"Each row of the run's bearing has a cage, and '{name}' is that of each; take one of "
+            "them: flexcage.results.each_cage.one_cage(ds, 0), or run.row(0).",
             where=name,
         )
     return ds[name]
@@ -112,31 +120,51 @@ def following_in_row(ds: xarray.Dataset) -> tuple[np.ndarray, np.ndarray]:
 
 
 def carrier(ds: xarray.Dataset) -> str:
-    """What goes round with the elements, in words: "cage", or without one "balls", "rollers"."""
-    return "cage" if caged(ds) else f"{element(ds)}s"
+    """What goes round with the elements, in words: "cage", "cages" where each row has one, or
+    without one "balls", "rollers"."""
+    if not caged(ds):
+        return f"{element(ds)}s"
+    return "cage" if cage_count(ds) == 1 else "cages"
 
 
 def carrier_angle(ds: xarray.Dataset) -> np.ndarray:
-    """Angle turned about the bearing axis [rad], continuous, (time,): by the cage, or without one
-    by the elements in the mean."""
+    """Angle turned about the bearing axis [rad], continuous, (time,): by the cage, by those of all
+    rows in the mean, or without one by the elements in the mean."""
     if not caged(ds):
         psi: np.ndarray = ds["element_position"].sel(cyl="psi").mean("element").values
         return psi
+    if (count := cage_count(ds)) > 1:
+        each = [carrier_angle(one_cage(ds, k)) for k in range(count)]
+        return np.asarray(np.mean(each, axis=0))
     q = ds["cage_quaternion"].values
     return np.unwrap(2.0 * np.arctan2(q[:, 1], q[:, 0]), period=2.0 * np.pi)
 
 
 def carrier_speed(ds: xarray.Dataset) -> xarray.DataArray:
-    """Speed about the bearing axis, (time,) [rad/s]: of the cage, or without one of the elements in
-    the mean."""
+    """Speed about the bearing axis, (time,) [rad/s]: of the cage, of those of all rows in the mean,
+    or without one of the elements in the mean."""
     if caged(ds):
-        return ds["cage_omega"].sel(axis="x", drop=True)
+        speed = ds["cage_omega"].sel(axis="x", drop=True)
+        return speed.mean(CAGES, keep_attrs=True) if CAGES in speed.dims else speed
     around = ds["element_velocity"].sel(cyl="psi", drop=True)
     found: xarray.DataArray = (around / ds["element_position"].sel(cyl="r", drop=True)).mean(
         "element"
     )
     found.attrs = {"units": "rad/s", "long_name": "mean orbital speed of the elements"}
     return found
+
+
+def carrier_speeds(ds: xarray.Dataset) -> xarray.DataArray:
+    """The same as it goes round with every element, (time, element), where each row has a cage;
+    else ``carrier_speed``."""
+    if (count := cage_count(ds)) == 1:
+        return carrier_speed(ds)
+    of_row = ds["cage_omega"].sel(axis="x", drop=True)
+    return (
+        of_row.isel({CAGES: np.arange(ds.sizes["element"]) * count // ds.sizes["element"]})
+        .rename({CAGES: "element"})
+        .assign_coords(element=ds["element"])
+    )
 
 
 def whole_revolutions(ds: xarray.Dataset) -> xarray.Dataset:

@@ -21,7 +21,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     Compute = Callable[[Mapping[str, np.ndarray], BearingSystem], np.ndarray]
 
 NEIGHBOURS = "neighbour_force"
+CAGES = "cage"  # dimension of runs in which each row of elements has a cage
 TIME = "time"
 TIME_HF = "time_hf"
 
@@ -57,8 +58,8 @@ _LABELS: dict[str, tuple[str, ...]] = {
 
 #: Dimensions of all bearings whose labels a run gives.
 RUN_DIMS = (
-    "element", "pocket", "mode", "station", "constraint", "energy_kind", "channel", "land_station",
-    "support", "spotted",
+    "element", CAGES, "pocket", "mode", "station", "constraint", "energy_kind", "channel",
+    "land_station", "support", "spotted",
 )  # fmt: skip
 ENERGIES = ("kinetic", "strain", "contact", "mount")  # labels of energy_kind
 #: Bits of values that are rounded together: forces of parts of a face, modal values and moments.
@@ -97,6 +98,14 @@ class Variable:
     @property
     def attrs(self) -> dict[str, str]:
         return {"units": self.unit, "long_name": self.long_name}
+
+
+def of_each_cage(variable: Variable) -> Variable:
+    """The variable of a run in which each row of elements has a cage: one that is of a whole cage
+    has these as a dimension."""
+    if not variable.of_cage or {"pocket", "element"} & {*variable.dims}:
+        return variable
+    return replace(variable, dims=(variable.dims[0], CAGES, *variable.dims[1:]))
 
 
 @dataclass(frozen=True)
@@ -347,7 +356,8 @@ def whose(families: Sequence[str]) -> str:
 PAGE = """# Result variables
 
 What a run records: `run.dataset["NAME"]`, an xarray array with labels and units. Printed by
-`flexcage variables`; forces act *on* the named body.
+`flexcage variables`; forces act *on* the named body. Where each row of elements has a cage, what is
+of a whole cage has the dimension `cage` behind its first one.
 """
 _ON_GRID = {TIME: "", TIME_HF: "at the vibration rate"}
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from math import isfinite, pi
 
 from flexcage.core.digits import texts_with_margin
@@ -81,6 +82,15 @@ def format_value(value: float, shown: str = "", margin: float | None = None) -> 
         margin = 0.0 if margin < nothing else margin * factor
     number, half = texts_with_margin(value, margin)
     return number, f"± {half}" if half else ""
+
+
+def with_others(rows: Sequence[SummaryRow]) -> SummaryRow:
+    """The row of the cage at -x, with the values of those of other rows in its note."""
+    first = rows[0]
+    if len(rows) == 1 or first.text == "-":
+        return first
+    said = f"of the cage at -x; at +x {', '.join(row.full_text for row in rows[1:])}"
+    return replace(first, note="; ".join(filter(None, (first.note, said))))
 
 
 @dataclass(frozen=True)

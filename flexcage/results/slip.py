@@ -141,7 +141,7 @@ def spin_in_cage(ds: xarray.Dataset) -> xarray.DataArray:
     race."""
     own = speed_of(ds)
     spin = own.spin(ds)
-    return spin - rolling_sense(ds) * metrics.carrier_speed(ds) if own.inertial else spin
+    return spin - rolling_sense(ds) * metrics.carrier_speeds(ds) if own.inertial else spin
 
 
 def element_spin(ds: xarray.Dataset) -> xarray.DataArray:

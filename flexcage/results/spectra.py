@@ -16,6 +16,7 @@ import numpy as np
 
 from flexcage.core.errors import InputError
 from flexcage.results import metrics
+from flexcage.results.each_cage import one_cage
 from flexcage.results.evenly import FEWEST, grid_of, series
 from flexcage.results.figures.figure import CAGE_SPEED
 from flexcage.results.frequencies import bearing_frequencies as bearing_frequencies
@@ -53,7 +54,7 @@ def _cage_centre(ds: xarray.Dataset) -> xarray.DataArray | None:
         return None
 
     return xr.DataArray(
-        metrics.orbit(ds), dims=("time", "axis2"),
+        metrics.orbit(one_cage(ds, 0)), dims=("time", "axis2"),
         coords={"time": ds["time"], "axis2": ["y", "z"]}, attrs={"units": "m"},
     )  # fmt: skip
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import cos, isfinite, sin
 from typing import TYPE_CHECKING
 
@@ -17,6 +17,7 @@ from flexcage.geometry.cage import Cage
 from flexcage.results import metrics
 from flexcage.results.audit import EXCEEDED, OF_CAGE, OF_DRIVE
 from flexcage.results.bootstrap import FEWEST
+from flexcage.results.each_cage import cage_count, one_cage
 from flexcage.results.edges import Edge
 from flexcage.results.elastic import ElasticShape, grown_into_ring, large_rotation
 from flexcage.results.figures.own import own_warnings
@@ -64,6 +65,9 @@ class RunOutcome:
         """A figure of the summary, or NaN where it has none."""
         value = self.summary[key] if key in self.summary else None
         return float(value) if isinstance(value, (int, float)) else float("nan")
+
+
+Check = Callable[[RunOutcome], Iterator[RunWarning]]
 
 
 def _unfinished(o: RunOutcome) -> Iterator[RunWarning]:
@@ -256,13 +260,27 @@ def _um(length: float) -> str:
     return f"{length * 1e6:.3g} um" if abs(length) < 1e-3 else f"{length * 1e3:.3g} mm"
 
 
+def _of_each(check: Check) -> Check:
+    """The check of every cage, where each row of elements has one."""
+
+    def checked(o: RunOutcome) -> Iterator[RunWarning]:
+        count = cage_count(o.dataset)
+        for k in range(count):
+            which = "" if count == 1 else f"Row {k}: "
+            for found in check(replace(o, dataset=one_cage(o.dataset, k))):
+                yield replace(found, text=which + found.text)
+
+    return checked
+
+
+_THROWN_OFF, _PASSES_RING = _of_each(_thrown_off), _of_each(_passes_ring)
 #: What is looked at when a run has come to its end.
-AT_END: tuple[Callable[[RunOutcome], Iterator[RunWarning]], ...] = (
+AT_END: tuple[Check, ...] = (
     _unfinished,
     _yield,
     _overloaded,
-    _thrown_off,
-    _passes_ring,
+    _THROWN_OFF,
+    _PASSES_RING,
     _large_rotation,
     _grown_into_ring,
     _short,
@@ -274,7 +292,7 @@ AT_END: tuple[Callable[[RunOutcome], Iterator[RunWarning]], ...] = (
     _own_figures,
 )
 _OF_CAGE = (
-    _yield, _thrown_off, _passes_ring, _large_rotation, _grown_into_ring, _elements_touch
+    _yield, _THROWN_OFF, _PASSES_RING, _large_rotation, _grown_into_ring, _elements_touch
 )  # fmt: skip
 #: The same without a cage.
 CAGELESS_AT_END = tuple(check for check in AT_END if check not in _OF_CAGE)

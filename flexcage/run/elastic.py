@@ -22,6 +22,7 @@ def elastic_shape(run: RunRecord) -> ElasticShape:
     if cage is None:
         return ElasticShape()
     modal = run.dataset["modal_coordinates"].values
+    modal = modal.reshape(-1, modal.shape[-1])  # of one cage after the other
     stations = cage.interface.modes.reshape(-1, modal.shape[1])
     if np.abs(stations).max(axis=0) @ np.abs(modal).max(axis=0) < _HARDLY * run.case.its_cage.width:
         return ElasticShape(stiffened=stiffened)

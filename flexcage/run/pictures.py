@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -32,6 +32,7 @@ def picture_names_of(run: SummarisedRun) -> list[str]:
         caged=run.case.cage is not None,
         flexible=run.cage is not None,
         resolved=spectra.resolves(part, run.numbers),
+        rows=len(run.rows) if len(run.rows) > 1 else 0,
     )
     return [*names, *ring_pictures(run.case)]
 
@@ -73,8 +74,15 @@ def scene_of(run: SummarisedRun, *, animate: bool = False, stress: bool = True) 
         clearance=case.land.clearance if cage and run.bearing.land(cage) else None,
         guide=cage.land_ring if cage else "",
         settle=case.output.settle,
-        stress=_stress_pictures(run, animate) if stress and run.cage is not None else None,
+        **_of_cages(run, animate=animate, stress=stress and run.cage is not None),
     )
+
+
+def _of_cages(run: SummarisedRun, *, animate: bool, stress: bool) -> dict[str, Any]:
+    """The stress of a scene's cage, or a scene for each row that has one."""
+    if len(run.rows) > 1:
+        return {"rows": [scene_of(row, animate=animate, stress=stress) for row in run.rows]}
+    return {"stress": _stress_pictures(run, animate) if stress else None}
 
 
 def _stress_pictures(run: SummarisedRun, animate: bool) -> StressPictures:
@@ -82,7 +90,7 @@ def _stress_pictures(run: SummarisedRun, animate: bool) -> StressPictures:
     envelope = np.zeros(len(run.mesh.points))
     envelope[history.surface] = history.envelope
     assert run.cage is not None
-    model = run.cage.model
+    model, (nodes, cells) = run.cage.model, run.cage_stress.solid
     frames = []
     if animate:
         t = run.dataset["time"].values
@@ -91,8 +99,8 @@ def _stress_pictures(run: SummarisedRun, animate: bool) -> StressPictures:
             field = run.stress(time=instant)
             frames.append((field.time, field.displacement, at_nodes(model, field.stress)))
     return StressPictures(
-        nodes=model.nodes,
-        cells=model.cells,
+        nodes=nodes,
+        cells=cells,
         basis=run.cage.shown,
         time=peak.time,
         displacement=peak.displacement,

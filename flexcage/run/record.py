@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -19,9 +19,11 @@ from flexcage.core.units import parse
 from flexcage.core.warning import RunWarning
 from flexcage.geometry.bearing import Bearing
 from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.mesh.rows import mirror_image
 from flexcage.mesh.series import write_series
 from flexcage.modes.reduction import CageReduction
 from flexcage.modes.table import ModeTable
+from flexcage.results.each_cage import cage_count, check_cage, one_cage, own_events
 from flexcage.results.edges import Edge, groove_edges
 from flexcage.results.film import film_thickness
 from flexcage.results.metrics import settled
@@ -65,8 +67,10 @@ class RunRecord:
         start: Start | None = None,
         stages: Stages | None = None,
         edited: tuple[RunWarning, ...] = (),
+        row: int | None = None,
     ) -> None:
-        self.case, self.store, self.folder = case, store, folder
+        """``row``: the part of it that is of this row and its cage, where each row has one."""
+        self.case, self.store, self.folder, self._row = case, store, folder, row
         self._mesh, self.cage, self.start = mesh, cage, start
         self.stages = stages if stages is not None else Stages()
         self.effort: Effort | None = None  # of the integration, if this process did it
@@ -85,12 +89,35 @@ class RunRecord:
         if self._mesh is None:
             self.case.its_cage  # noqa: B018  (says so)
         assert self._mesh is not None
-        return self._mesh
+        return mirror_image(self._mesh) if self._row else self._mesh
 
     @cached_property
     def dataset(self) -> xarray.Dataset:
         """All recorded variables, labelled, with units (an xarray.Dataset)."""
-        return self.store.dataset()
+        whole = self.store.dataset()
+        return whole if self._row is None else one_cage(whole, self._row)
+
+    def row(self, k: int) -> Self:
+        """The run with the elements of row k and their cage alone, where each row has a cage: what
+        it says of motion, stress and wear is that of this cage, its pictures too. Energies, works
+        and rings stay the whole bearing's. InputError for a row that is not there, or without a
+        cage of its own."""
+        if cage_count(self.dataset) == 1:
+            raise InputError(
+                "The rows of the run's bearing have no cages of their own; the run itself says all "
+                "of its cage.",
+                where="row", value=k,
+            )  # fmt: skip
+        check_cage(self.dataset, k)
+        return type(self)(
+            self.case, self.store, None, self._mesh, self.cage, self.start, self.stages, row=k
+        )
+
+    @cached_property
+    def rows(self) -> tuple[Self, ...]:
+        """Its rows, where each has a cage, as ``row`` gives them; else itself."""
+        count = cage_count(self.dataset)
+        return (self,) if count == 1 else tuple(self.row(k) for k in range(count))
 
     @cached_property
     def signals(self) -> xarray.Dataset:
@@ -110,7 +137,12 @@ class RunRecord:
         xarray.Dataset)."""
         from flexcage.results.events import contact_events
 
-        return contact_events(self.store.events(), self.store.layout.attrs)
+        events = contact_events(self.store.events(), self.store.layout.attrs)
+        if self._row is None:
+            return events
+        own = own_events(events, self.store.dataset(), self._row)
+        assert own is not None
+        return own
 
     @property
     def steps(self) -> dict[str, np.ndarray]:
@@ -148,6 +180,12 @@ class RunRecord:
         used = self.case.its_cage
         if self.cage is None:
             raise InputError("a rigid cage has no stress; run the case with cage.model = flexible")
+        if len(self.rows) > 1:
+            raise InputError(
+                "Each row of the run's bearing has a cage; take one of them: run.row(0) is the run "
+                "of the row at -x, and has its stress.",
+                where="row",
+            )
         return RunStress(
             cage=self.cage,
             places=cage_type_of(used).places(),
@@ -158,6 +196,7 @@ class RunRecord:
             settle=self.case.output.settle,
             inner_land=used.land_ring == "inner",
             stages=self.stages,
+            k=self._row or 0,
         )
 
     @property

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from flexcage.core.warning import RunWarning
@@ -18,7 +19,7 @@ from flexcage.results.figures.part import SettledRun
 from flexcage.results.figures.sections import summarise
 from flexcage.results.figures.stress import RIVETS, stress_rows
 from flexcage.results.figures.table import FIGURES
-from flexcage.results.row import SummaryRow
+from flexcage.results.row import SummaryRow, with_others
 from flexcage.results.signals.figures import SENSORS, clipped, sensor_rows
 from flexcage.results.slip import SlipRange
 from flexcage.results.summary import Summary
@@ -48,7 +49,7 @@ def summary_of(run: RunRecord, *, stress: bool = True) -> Summary:
         summary = summary.with_figures(rows)
     if run.cage is not None:
         proof = case.its_cage.material.proof_stress
-        if stress or run.cage_stress.may_exceed(proof):
+        if stress or any(row.cage_stress.may_exceed(proof) for row in run.rows):
             summary = with_stress(summary, run)
     if case.sensors and run.store.n_time >= FEWEST:
         summary = summary.with_section(SENSORS, sensor_rows(run.signals, part.frequencies))
@@ -66,10 +67,17 @@ def part_of(run: RunRecord) -> SettledRun:
 
 def with_stress(summary: Summary, run: RunRecord) -> Summary:
     """The summary with stress behind the cage's figures."""
-    summary = summary.with_figures(stress_rows(run.cage_stress.figures), after="cage_mass")
+    found = [stress_rows(row.cage_stress.figures) for row in run.rows]
+    summary = summary.with_figures(_of_rows(found), after="cage_mass")
     if not run.case.riveted:
         return summary
-    return summary.with_figures(RIVETS.rows(run.rivets), after="stress_peak")
+    riveted = [RIVETS.rows(row.rivets) for row in run.rows]
+    return summary.with_figures(_of_rows(riveted), after="stress_peak")
+
+
+def _of_rows(found: Sequence[Sequence[SummaryRow]]) -> list[SummaryRow]:
+    """Figures of the cage, or of that of each row of elements."""
+    return [with_others(rows) for rows in zip(*found, strict=False)]
 
 
 def warned(summary: Summary, run: RunRecord) -> Summary:
@@ -114,6 +122,7 @@ def _cage_rows(run: RunRecord) -> tuple[SummaryRow, ...]:
             mesh=report_mesh(run.mesh, density=cage.material.density),
             basis=None if run.cage is None else run.cage.shown,
             table=mode_file.FILE if run.folder else "run.mode_table",
+            count=run.case.cages,
             pinched=() if start is None else start.pinched,
             pinch_force=0.0 if start is None else start.pinch_force,
         )

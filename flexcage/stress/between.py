@@ -12,8 +12,10 @@ from functools import lru_cache
 
 import numpy as np
 
+from flexcage.results.registry import CAGES
 from flexcage.results.store import MemoryRunStore
 from flexcage.stress.loads import on_lands
+from flexcage.stress.mirrored import Across, in_mirror
 from flexcage.stress.recovery import CageLoads
 
 _SAME = 1e-10  # [s] within which a step is a sample
@@ -69,11 +71,17 @@ def no_steps(first: int, end: int) -> None:
 
 class StoredSteps:
     """The loads of a run at steps between its samples at times ``t`` [s], read block by block;
-    ``inner``: the cage rides on the inner ring's land."""
+    ``inner``: the cage rides on the inner ring's land. Of several cages those of cage ``k``, and
+    with ``across`` (``mirrored.Across``) in the mirror."""
 
-    def __init__(self, store: MemoryRunStore, t: np.ndarray, *, inner: bool) -> None:
-        self._t, self._inner = t, inner
-        self._faces = tuple(store.layout.size(dim) for dim in ("pocket", "face"))
+    def __init__(
+        self, store: MemoryRunStore, t: np.ndarray, *, inner: bool, k: int = 0,
+        across: Across | None = None,
+    ) -> None:  # fmt: skip
+        self._t, self._inner, self._k, self._across = t, inner, k, across
+        pockets, faces = (store.layout.size(dim) for dim in ("pocket", "face"))
+        self._cages = store.layout.size(CAGES) if CAGES in store.layout.coords else 1
+        self._faces = pockets // self._cages, faces
         self._block = store.layout.block
         self._table = lru_cache(_BLOCKS)(store.loads)
 
@@ -113,11 +121,20 @@ class StoredSteps:
         step_of_row = np.repeat(np.arange(len(sample)), table["touched"])
         place = np.full(len(sample), -1)
         place[steps] = np.arange(len(steps))
-        rows = np.flatnonzero(place[step_of_row] >= 0)
         force, (pocket, face) = table["force"], table["face"].T
+        pocket = pocket - self._k * self._faces[0]
+        own = (pocket >= 0) & (pocket < self._faces[0])
+        rows = np.flatnonzero((place[step_of_row] >= 0) & own)
         stations = np.zeros((len(steps), *self._faces, *force.shape[1:]), force.dtype)
         stations[place[step_of_row[rows]], pocket[rows], face[rows]] = force[rows]
+        if self._across is not None:
+            stations = in_mirror(stations, self._across)
+        modes, land = (self._own(table[name][steps]) for name in ("modes", "land"))
         return Loads(
-            sample[steps], table["time"][steps], table["modes"][steps], stations,
-            on_lands(table["land"][steps], inner=self._inner),
-        )  # fmt: skip
+            sample[steps], table["time"][steps], modes, stations, on_lands(land, inner=self._inner)
+        )
+
+    def _own(self, values: np.ndarray) -> np.ndarray:
+        """What is of the cage among values (n, cages m, ...) of one after the other."""
+        each = values.shape[1] // self._cages
+        return values[:, self._k * each : (self._k + 1) * each]

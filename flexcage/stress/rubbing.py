@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -31,6 +31,20 @@ class Rubbing:
     height: np.ndarray
     groove: np.ndarray
     friction: np.ndarray
+
+
+def joined(parts: Sequence[Rubbing]) -> Rubbing:
+    """That of the pockets of one cage after the other."""
+    if len(parts) == 1:
+        return parts[0]
+    return Rubbing(
+        np.concatenate([part.power for part in parts], axis=1),
+        np.concatenate([part.cells for part in parts]),
+        np.concatenate([part.length for part in parts]),
+        np.concatenate([part.height for part in parts]),
+        parts[0].groove,
+        np.sum([part.friction for part in parts], axis=0),
+    )
 
 
 #: A family's rubbing, by the (settled) dataset of a run, its bearing and its cage.

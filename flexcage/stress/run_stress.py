@@ -29,6 +29,13 @@ from flexcage.stress.fields import StressFields, TensorFields
 from flexcage.stress.gauges import gauge_fields
 from flexcage.stress.history import StressHistory, histories_at, stress_bound, stress_history
 from flexcage.stress.loads import LandLoads, cage_loads
+from flexcage.stress.mirrored import (
+    Across,
+    MirroredForces,
+    mirrored_fields,
+    mirrored_loads,
+    mirrored_solid,
+)
 from flexcage.stress.operators import von_mises
 from flexcage.stress.places import StressPlaces, in_words
 from flexcage.stress.recovery import STRESS_VERSION, StressRecovery
@@ -80,7 +87,8 @@ class RunStress:
 
     ``settle`` is the share of the run that is left out of figures; ``inner_land`` says whether land
     forces act on the cage's inner land. ``places`` are those of the cage's type. ``stages`` takes
-    the time of the history.
+    the time of the history. Where each row of elements has a cage, ``dataset`` is that of cage
+    ``k`` (``results.each_cage``); the second one, and ``mesh``, are mirror images of ``cage``.
     """
 
     cage: CageReduction
@@ -92,6 +100,7 @@ class RunStress:
     settle: float
     inner_land: bool
     stages: Stages
+    k: int = 0
 
     @cached_property
     def recovery(self) -> StressRecovery:
@@ -139,11 +148,29 @@ class RunStress:
         index = int(samples_near(t, [wanted])[0])
         instant = float(t[index])
         loads = cage_loads(self.dataset, index, inner=self.inner_land)
+        if self._across is not None:
+            loads = mirrored_loads(loads, self._across)
         step = self._between.nearest(wanted, index)
         if step is not None and abs(step.time[0] - wanted) < abs(instant - wanted):
             instant, loads = float(step.time[0]), step.cage_loads(loads.angular_velocity)
         u = self.recovery.displacement(loads)
-        return StressField(instant, u, self.recovery.stress(u, loads))
+        stress = self.recovery.stress(u, loads)
+        if self._across is not None:
+            u, stress = mirrored_fields(u, stress)
+        return StressField(instant, u, stress)
+
+    @property
+    def solid(self) -> tuple[np.ndarray, np.ndarray]:
+        """Nodes (N, 3) [m] and tetrahedra (n, 4 or 10) of the cage's finite elements."""
+        model = self.cage.model
+        if self._across is None:
+            return model.nodes, model.cells
+        return mirrored_solid(model.nodes, model.cells)
+
+    @property
+    def _across(self) -> Across | None:
+        """How stations of the cage are those of its mirror image, if it is one."""
+        return self.cage.interface.across if self.k else None
 
     @one_blas_thread
     def may_exceed(self, stress: float) -> bool:
@@ -234,7 +261,10 @@ class RunStress:
     @property
     def _between(self) -> StoredSteps:
         """Steps between samples, anew: what is read of them is not kept for the run's life."""
-        return StoredSteps(self.store, self.dataset["time"].values, inner=self.inner_land)
+        return StoredSteps(
+            self.store, self.dataset["time"].values, inner=self.inner_land, k=self.k,
+            across=self._across,
+        )  # fmt: skip
 
     def _moved_and_pushed(self, ds: xarray.Dataset) -> tuple[Any, Any, LandLoads | None]:
         """Modal coordinates, station forces and land forces of samples: what histories want.
@@ -242,4 +272,7 @@ class RunStress:
         Read from disk slice by slice: a second of a roller bearing has 0.4 GB of station forces.
         """
         land = LandLoads(ds, inner=self.inner_land)
-        return ds["modal_coordinates"], ds["station_force"], land or None
+        pushed: Any = ds["station_force"]
+        if self._across is not None:
+            pushed = MirroredForces(pushed, self._across)
+        return ds["modal_coordinates"], pushed, land or None

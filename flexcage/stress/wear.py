@@ -28,8 +28,9 @@ from flexcage.core.wings import FAMILIES
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
 from flexcage.results.bootstrap import NO_INTERVAL
+from flexcage.results.each_cage import ONE_OF, cage_count, one_cage
 from flexcage.results.statistics import Windows
-from flexcage.stress.rubbing import Rub, Rubbing
+from flexcage.stress.rubbing import Rub, Rubbing, joined
 from flexcage.stress.sn_curves import of_other
 from flexcage.stress.wear_laws import WearLaw
 
@@ -158,12 +159,14 @@ def wear(
             "a rubbing of its own.",
             where="bearing.type",
         )
-    rubbing = slot()(ds, bearing, cage)
+    parts = [one_cage(ds, k) for k in range(cage_count(ds))]
+    rubbing = joined([slot()(part, bearing, cage) for part in parts])
     t, recorded = ds["time"].values, ds["work"].sel(channel="pocket_friction").values
     lost, found = float(recorded[0] - recorded[-1]), float(np.trapezoid(rubbing.friction, t))
-    slid = land_rubbing(ds, cage, land.on(bearing.land(cage)))
+    lands = [land_rubbing(part, cage, land.on(bearing.land(cage))) for part in parts]
+    slid = max(lands, key=lambda each: each[0])
     table = _tabled(rubbing, ds, law.coefficient, windows, slid)
-    check = found / lost if lost else float("nan")
+    check = found / lost if lost and ONE_OF not in ds.attrs else float("nan")
     elements = bearing.rolling_material.name if bearing.is_hybrid else ""
     return Wear(law, float(t[-1] - t[0]), table, check, cage.material.name, elements)
 

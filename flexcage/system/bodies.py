@@ -186,7 +186,7 @@ def bodies_of(
     speed = _speed_table(drive)
     steps = 0.5 * np.diff(speed[0]) * (speed[1, 1:] + speed[1, :-1])
     rho = lubricant.density * lubricant.oil_fraction
-    azimuth, skin = load.gravity_direction, bearing.row_count * _skin(cage)
+    azimuth, skin = load.gravity_direction, _skin(cage) * _rows_in(cage, bearing)
     return Bodies(
         element=element,
         radius=radius,
@@ -209,6 +209,11 @@ def bodies_of(
         load_direction=np.array([np.cos(load.direction), np.sin(load.direction)]),
         moments=np.array([load.moment_y, load.moment_z]),
     )  # fmt: skip
+
+
+def _rows_in(cage: Cage | None, bearing: Bearing) -> int:
+    """So many rows of elements each cage of a bearing holds."""
+    return bearing.row_count // cage.count_in(bearing) if cage else 0
 
 
 def _skin(cage: Cage | None) -> float:

@@ -22,8 +22,9 @@ from flexcage.system.layout import (
     QUATERNION,
     RING,
     Places,
+    cage_at,
 )
-from flexcage.system.rates import by_inverse, cage_accelerations
+from flexcage.system.rates import accelerate_cage, by_inverse
 from flexcage.system.ring import ring_rates
 
 INSTANT = 1e-6  # [s] over which constraints are differentiated in time
@@ -52,9 +53,10 @@ def apply_constraints(t, y, yd, d, rows, out, mode):
 def _places(at):
     """The places as the functions of constraints take them."""
     return Places(
-        at.elements, at.cages, at.modes, at.inner_modes, at.outer_modes, at.q, at.u, at.inner_q,
-        at.inner_u, at.inner_b, at.outer_q, at.outer_u, at.outer_b, at.cage_q, at.cage_u, at.cage_b,
-        at.bodies_q, at.bodies_u, at.border, at.coordinates, at.lam, at.held, at.loads,
+        at.elements, at.cages, at.in_cage, at.modes, at.inner_modes, at.outer_modes, at.q, at.u,
+        at.inner_q, at.inner_u, at.inner_b, at.outer_q, at.outer_u, at.outer_b, at.cage_q,
+        at.cage_u, at.cage_b, at.bodies_q, at.bodies_u, at.border, at.coordinates, at.lam, at.held,
+        at.loads,
     )  # fmt: skip
 
 
@@ -81,15 +83,15 @@ def _displaced(y, d, shift, out):
             out[q - at.bodies_q + k] = rates[k]
         for m in range(modes):
             out[q - at.bodies_q + RING + m] = shift[b + RIGID + m]
-    if at.cages == 0:
-        return
-    own, cage = array_from(shift, at.cage_b), array_from(out, at.cage_q - at.bodies_q)
-    for k in range(3):
-        cage[k] = own[k]
-    turn = array_from(cage, QUATERNION)
-    quaternion_rate(array_from(y, at.cage_q + QUATERNION), array_from(own, TURN), turn)
-    for m in range(at.modes):
-        cage[FRAME + m] = own[RIGID + m]
+    for n in range(at.cages):
+        place = cage_at(n, at)
+        own, cage = array_from(shift, place.b), array_from(out, place.q - at.bodies_q)
+        for k in range(3):
+            cage[k] = own[k]
+        turn = array_from(cage, QUATERNION)
+        quaternion_rate(array_from(y, place.q + QUATERNION), array_from(own, TURN), turn)
+        for m in range(at.modes):
+            cage[FRAME + m] = own[RIGID + m]
 
 
 @part
@@ -183,7 +185,7 @@ def _bear(t, y, yd, d, rows):
 
     Those of drive and load bear what is held already.
     """
-    c, frame, at = fields(d.constraints), fields(d.frame), fields(d.places)
+    c, at = fields(d.constraints), fields(d.places)
     m, lam, a = c.level.shape[0], array_from(y, at.lam), array_from(yd, at.bodies_u)
     for side in range(2):
         late = -INSTANT if side == 0 else INSTANT
@@ -207,11 +209,9 @@ def _bear(t, y, yd, d, rows):
                 for j in range(b, b + RIGID + modes):
                     pull[j] = c.G[k, j]
                 by_inverse(ring, array_from(pull, b))
-        if at.cages > 0:
-            cage_accelerations(
-                frame.rigid, frame.coupled, fields(d.cage).plain, fields(d.scratch).A,
-                pull[at.cage_b : at.cage_b + RIGID + at.modes], fields(d.rates),
-            )  # fmt: skip
+        for n in range(at.cages):
+            first = cage_at(n, at).b
+            accelerate_cage(n, y, pull[first : first + RIGID + at.modes], d)
     for k in range(m):
         c.x[k] = -0.5 * (c.late[1, k] - c.late[0, k]) / INSTANT
         for j in range(at.border):

@@ -313,12 +313,18 @@ def check_independent(
         if not _has_slope(G):
             for body in layout.bodies:
                 if body.name != "outer":
-                    layout.q(y)[body.name][1:3] += _NUDGE
+                    layout.q(y)[body.name][..., 1:3] += _NUDGE
             G = _slopes(spec, data.p[i], layout.places, y)
         if not _has_slope(G):
             raise InputError(
                 f"constraints.{i} ({spec.type}) has no slope G at the start, or one that is not a "
                 "number: does every label have its row?",
+                where=f"constraints.{i}", value=spec.type,
+            )  # fmt: skip
+        if layout.cages > 1 and G[:, layout.places.cage_b :].any():
+            raise InputError(
+                f"constraints.{i} ({spec.type}) holds the cage, but each row has one (cage.rows is "
+                "'each'); leave it out, or give both rows one cage.",
                 where=f"constraints.{i}", value=spec.type,
             )  # fmt: skip
         given = len(KINDS[spec.type].parameters(spec))

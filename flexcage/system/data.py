@@ -50,13 +50,13 @@ RING_AXIS, RING_SPIN = range(2)  # of ``Scratch.rings``
 OF_SPEED, OF_LOAD, OF_AXIAL = range(3)  # rows of ``Bodies.waves``
 SHAFT_STIFFNESS, SHAFT_DAMPING = range(2)  # places in ``Bodies.shaft``
 EVENT_TIME, EVENT_ELEMENT, EVENT_PLACE, EVENT_CLOSED = range(4)  # in a row of ``Events.rows``
-LANDS, OTHER_LAND = 4, 2  # lands of a cage at -x, +x on its guiding ring, then on the other one
+LANDS, OTHER_LAND = 4, 2  # lands of each cage at -x, +x on its guiding ring, then on the other one
 KINETIC, STRAIN, IN_CONTACTS, IN_MOUNT = range(4)  # places in ``Report.energy``
 # places in ``law`` behind those of ``contacts.evaluation``: the rows of further constraints, what
 # puts these in (``constraint_equations``), and the family's functions ``separate``
 CONSTRAINT_EQUATIONS, HOLD, FAMILY_PARTS = 10, 11, 12
-# rows of ``Scratch.vec``: of the cage in space; of the pair under work, in the roller's frame F; of
-# lands, forces and moments on the cage and on the ring that they meet
+# rows of ``Scratch.vec``: of the cage under work in space; of the pair under work, in the roller's
+# frame F; of lands, forces and moments on the cage and on the ring that they meet
 (
     CAGE_SPIN, LEVER, PARTNER_V, PARTNER_W, CAGE_FORCE, CAGE_MOMENT, RING_FORCE, RING_MOMENT, N_VEC,
 ) = range(9)  # fmt: skip
@@ -107,7 +107,7 @@ class Memory(NamedTuple):
     race: np.ndarray  # (Z, 2)
     pocket: np.ndarray  # (Z, faces)
     rib: np.ndarray  # (Z, ribs)
-    land: np.ndarray  # (LANDS,)
+    land: np.ndarray  # (cages LANDS,)
     deflection: np.ndarray  # (Z, 12) residual coordinates of the pockets, to begin the next solve
 
 
@@ -141,10 +141,12 @@ class Report(NamedTuple):
     station: np.ndarray  # (Z, faces, nst, 3)
     residual: np.ndarray  # (Z, 12)
     rib: np.ndarray  # (Z, ribs)
-    land: np.ndarray  # (3,)
-    # (nl, 2) on the cage, outwards and forwards; (2 nl, 2) if it may meet the other ring, too
+    # of lands, one cage after the other: (3 cages,); (cages nl, 2) on the cage, outwards and
+    # forwards, (2 cages nl, 2) if it may meet the other ring, too; (cages LANDS, 2) normal force
+    # and approach speed at -x, +x
+    land: np.ndarray
     land_station: np.ndarray
-    land_touch: np.ndarray  # (LANDS, 2) of the lands at -x, +x: normal force, approach speed
+    land_touch: np.ndarray
     power: np.ndarray  # (len(POWERS),)
     energy: np.ndarray  # (4,) places as above; that of the mount holds the shaft's springs too
     contact: np.ndarray  # (Z, places) booleans: races 2, faces of the pocket, ribs
@@ -157,7 +159,8 @@ def new_memory(report: Report) -> Memory:
     """That of contacts which closed at rest; as many as ``report`` tells of."""
     z, like = np.zeros, np.zeros_like
     return Memory(
-        z((len(report.rib), 2)), like(report.pocket_normal), like(report.rib), z(LANDS),
+        z((len(report.rib), 2)), like(report.pocket_normal), like(report.rib),
+        z(len(report.land_touch)),
         like(report.residual),
     )  # fmt: skip
 
@@ -168,7 +171,7 @@ class Scratch(NamedTuple):
     S: np.ndarray  # (6, 6)
     T6: np.ndarray  # (2, 6, 6) products
     R: np.ndarray  # (2, 3, 3)
-    A: np.ndarray  # (3, 3) cage attitude
+    A: np.ndarray  # (3, 3) attitude of the cage under work
     unit: np.ndarray  # (3, 3) unit matrix
     poses: np.ndarray  # (Z, KEPT, 3) of the rollers, see ``keep_pose``
     wrenches: np.ndarray  # (Z, 6) of all contacts on each element
@@ -207,6 +210,7 @@ def new_work(
     """Fresh workspaces for one thread, of elements with so many contact places; ``turns`` as
     ``Tangent`` has it; ``other_land``: the cage may meet the ring that does not guide it."""
     Z, n, nb, bodies = layout.elements, layout.modes, layout.n_border, layout.places.border
+    cages = max(layout.cages, 1)
     places = 2 + faces + ribs
     z = np.zeros
     tangent = Tangent(
@@ -217,8 +221,9 @@ def new_work(
     report = Report(
         z((Z, 2, N_RACE)), z((Z, faces)), z((Z, faces)), z((Z, 2, slices)), z((Z, 2, slices)),
         z((Z, 2, points)), z((Z, 2, points)),
-        z((Z, faces, stations, 3)), z((Z, N_LOCAL)), z((Z, ribs)), z(3),
-        z((land_stations * (2 if other_land else 1), 2)), z((LANDS, 2)), z(len(POWERS)), z(4),
+        z((Z, faces, stations, 3)), z((Z, N_LOCAL)), z((Z, ribs)), z(3 * cages),
+        z((cages * land_stations * (2 if other_land else 1), 2)), z((cages * LANDS, 2)),
+        z(len(POWERS)), z(4),
         z((Z, places), np.int64), z((Z, places)), z(6), z(6),
     )  # fmt: skip
     scratch = Scratch(
@@ -228,5 +233,5 @@ def new_work(
     )  # fmt: skip
     return Work(
         new_pose(), new_slices(), new_pair(), race_work, pocket_work, land_work(land_stations),
-        frame_work(n), scratch, tangent, report,
+        frame_work(n, layout.cages), scratch, tangent, report,
     )  # fmt: skip

@@ -24,7 +24,7 @@ from flexcage.system.data import (
     SHAFT_DAMPING,
     SHAFT_STIFFNESS,
 )
-from flexcage.system.floating import cage_equations
+from flexcage.system.floating import cage_equations, take_cage
 from flexcage.system.lands import land_forces
 from flexcage.system.layout import (
     AXIAL_FORCE,
@@ -55,9 +55,11 @@ def shared_equations(t, y, yd, d, law, out, mode):
     another process at the same time (a third of the work, measured).
     """
     at = fields(d.places)
-    if at.cages > 0:
-        land_forces(y, d, law, mode)
-        cage_equations(y, yd, d, out, mode)
+    for k in range(at.cages):
+        if at.cages > 1:
+            take_cage(k, y, d)
+        land_forces(k, y, d, law, mode)
+        cage_equations(k, y, yd, d, out, mode)
     _inner_equations(t, y, yd, d, out, mode)
     rates, rows = rows_at(yd, at.outer_q, at.outer_u), rows_at(out, at.outer_q, at.outer_u)
     sloped, reported = mode == TANGENT, mode >= REPORT

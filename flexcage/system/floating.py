@@ -1,4 +1,4 @@
-"""The cage: rows of a body in a floating frame, translations in space, rotations in the body.
+"""A cage: rows of a body in a floating frame, translations in space, rotations in the body.
 
 The equations stand in ``bodies.floating_frame``.
 """
@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from flexcage.bodies.floating_frame import inertia_terms, modal_product
 from flexcage.contacts.evaluation import REPORT, TANGENT
-from flexcage.core.jit import VECTORISED, array_from, fields, part
-from flexcage.core.rotation import quaternion_rate
-from flexcage.core.vectors import RIGID, TURN, minus, put, turned_back, xyz
-from flexcage.system.data import GRAVITY, KINETIC, MODAL_DAMPING, STRAIN
-from flexcage.system.layout import FRAME, QUATERNION
+from flexcage.core.jit import VECTORISED, array_from, copy_into, fields, part
+from flexcage.core.rotation import matrix_from_quaternion, quaternion_rate
+from flexcage.core.vectors import RIGID, TURN, minus, put, turn_of, turned, turned_back, xyz
+from flexcage.system.data import CAGE_SPIN, GRAVITY, KINETIC, MODAL_DAMPING, STRAIN
+from flexcage.system.layout import FRAME, QUATERNION, cage_at
 
 
 @part
@@ -20,20 +20,33 @@ def modes_at(first, count):
     return slice(first, first + count)
 
 
+@part
+def take_cage(k, y, d):
+    """Make cage k the one under work: its attitude and spin in ``Scratch``."""
+    work, own = fields(d.scratch), cage_at(k, fields(d.places))
+    matrix_from_quaternion(array_from(y, own.q + QUATERNION), work.A)
+    put(work.vec[CAGE_SPIN], turned(work.A, turn_of(array_from(y, own.u))))
+
+
 @part(fastmath=VECTORISED)
-def cage_equations(y, yd, d, out, mode):
-    """Rows of the cage; what contacts push is in ``Scratch.border``."""
-    data, tan, rep, work = fields(d.cage), fields(d.tangent), fields(d.report), fields(d.scratch)
+def cage_equations(k, y, yd, d, out, mode):
+    """Rows of cage k, which is under work; what contacts push is in ``Scratch.border``."""
+    tan, rep, work = fields(d.tangent), fields(d.report), fields(d.scratch)
+    data = fields(d.cage) if k == 0 else fields(d.second)
     at, frame, A, border = fields(d.places), fields(d.frame), work.A, work.border
-    nm, b = at.modes, at.cage_b
-    quat, qf = array_from(y, at.cage_q + QUATERNION), y[modes_at(at.cage_q + FRAME, nm)]
-    Vc, wb = array_from(y, at.cage_u), array_from(y, at.cage_u + TURN)
-    qfd, modes = y[modes_at(at.cage_u + RIGID, nm)], yd[modes_at(at.cage_u + RIGID, nm)]
-    qd, ud = array_from(yd, at.cage_q), array_from(yd, at.cage_u)
-    r_q, r_u = array_from(out, at.cage_q), array_from(out, at.cage_u)
+    own, nm = cage_at(k, at), at.modes
+    b = own.b
+    quat, qf = array_from(y, own.q + QUATERNION), y[modes_at(own.q + FRAME, nm)]
+    Vc, wb = array_from(y, own.u), array_from(y, own.u + TURN)
+    qfd, modes = y[modes_at(own.u + RIGID, nm)], yd[modes_at(own.u + RIGID, nm)]
+    qd, ud = array_from(yd, own.q), array_from(yd, own.u)
+    r_q, r_u = array_from(out, own.q), array_from(out, own.u)
     acc, v, product = frame.w[0], frame.w[1], frame.w[2]
     M, H, h = frame.rigid, frame.coupled, frame.h
     inertia_terms(data, wb, qf, qfd, frame)
+    if at.cages > 1:  # kept until all have accelerations
+        copy_into(frame.each_rigid[k], M)
+        copy_into(frame.each_coupled[k], H)
     # kinematics: R' = v in space, the quaternion by w of the body, modes by their rates
     rate = work.S[0]
     quaternion_rate(quat, wb, rate)
@@ -48,19 +61,19 @@ def cage_equations(y, yd, d, out, mode):
     put(acc, minus(turned_back(A, xyz(ud)), gb))
     for c in range(3):
         acc[TURN + c] = ud[TURN + c]
-    for k in range(6):  # M (a, w') + H q'' + h, in the body's frame
-        x = h[k]
+    for l in range(6):  # M (a, w') + H q'' + h, in the body's frame
+        x = h[l]
         for c in range(6):
-            x += M[k, c] * acc[c]
+            x += M[l, c] * acc[c]
         for m in range(nm):
-            x += H[k, m] * modes[m]
-        v[k] = x
+            x += H[l, m] * modes[m]
+        v[l] = x
     for c in range(3):  # forces to space, moments in the body; less those of contacts
         x = A[c, 0] * v[0] + A[c, 1] * v[1] + A[c, 2] * v[2]
         r_u[c] = x - border[b + c]
         r_u[TURN + c] = v[TURN + c] - border[b + TURN + c]
     # modes: H^T (a, w') + m_ff q'' + h + K q + d q' - Q
-    row_of = out[modes_at(at.cage_u + RIGID, nm)]
+    row_of = out[modes_at(own.u + RIGID, nm)]
     for m in range(nm):
         row_of[m] = h[RIGID + m] - border[b + RIGID + m]
         for c in range(6):
@@ -82,17 +95,17 @@ def cage_equations(y, yd, d, out, mode):
         put(v, turned_back(A, xyz(Vc)))
         for c in range(3):
             v[TURN + c] = wb[c]
-        for k in range(6):
+        for l in range(6):
             momentum = 0.0
             for m in range(nm):
-                momentum += H[k, m] * qfd[m]
-            if k < 3:  # what gravity does on the body's first moment of mass
-                rep.power[GRAVITY] += gb[k] * momentum
-            rep.energy[KINETIC] += v[k] * momentum
+                momentum += H[l, m] * qfd[m]
+            if l < 3:  # what gravity does on the body's first moment of mass
+                rep.power[GRAVITY] += gb[l] * momentum
+            rep.energy[KINETIC] += v[l] * momentum
             for c in range(6):
-                rep.energy[KINETIC] += 0.5 * v[k] * M[k, c] * v[c]
+                rep.energy[KINETIC] += 0.5 * v[l] * M[l, c] * v[c]
                 if c < 3:
-                    rep.power[GRAVITY] += v[k] * M[k, c] * gb[c]
+                    rep.power[GRAVITY] += v[l] * M[l, c] * gb[c]
         modal_product(data.mff, data.plain, qfd, product)
         for m in range(nm):
             rep.energy[KINETIC] += 0.5 * qfd[m] * product[m]

@@ -38,27 +38,30 @@ from flexcage.system.data import (
     IN_CONTACTS,
     LAND_DAMPING,
     LAND_FRICTION,
+    LANDS,
     OTHER_LAND,
     RING_FORCE,
     RING_MOMENT,
 )
 from flexcage.system.floating import modes_at
-from flexcage.system.layout import FRAME
+from flexcage.system.layout import FRAME, cage_at
 from flexcage.system.ring import inner_of, outer_of
 
 
 @part
-def land_forces(y, d, law, mode):
-    """Cage's lands on the ring that guides it and on the other one, and the drag on the cage."""
+def land_forces(k, y, d, law, mode):
+    """Lands of cage k, which is under work, on the ring that guides it and on the other one, and
+    the drag on it."""
     work, data, rep, at = fields(d.scratch), fields(d.land), fields(d.report), fields(d.places)
-    vec, border, A, nm, b = work.vec, work.border, work.A, at.modes, at.cage_b
+    vec, border, A, nm, own = work.vec, work.border, work.A, at.modes, cage_at(k, at)
+    b = own.b
     Fc, Mc, wg = vec[CAGE_FORCE], vec[CAGE_MOMENT], vec[CAGE_SPIN]
     zero(Fc)
     zero(Mc)
-    lw, onset = fields(d.land_work), fields(d.memory).land
+    lw, onset = fields(d.land_work), array_from(fields(d.memory).land, k * LANDS)
     cage = LandCage(
-        A, array_from(y, at.cage_q), array_from(y, at.cage_u), wg,
-        y[modes_at(at.cage_q + FRAME, nm)], y[modes_at(at.cage_u + RIGID, nm)],
+        A, array_from(y, own.q), array_from(y, own.u), wg,
+        y[modes_at(own.q + FRAME, nm)], y[modes_at(own.u + RIGID, nm)],
     )  # fmt: skip
     forces = LandForces(
         Fc, Mc, border[modes_at(b + RIGID, nm)], vec[RING_FORCE], vec[RING_MOMENT]
@@ -73,9 +76,9 @@ def land_forces(y, d, law, mode):
         bring_back(pushed, work.R[0], forces)
     _push_ring(forces, ring.b, border)
     if mode >= REPORT:
-        _report_land(lw.st, work.sums, 0, rep)
+        _report_land(lw.st, work.sums, k * LANDS, _stations_before(k, at, rep), rep)
     if data.other_kind != NO_LAND:
-        _other_ring(y, cage, forces, d, law, mode)
+        _other_ring(k, y, cage, forces, d, law, mode)
     drag = fields(d.bodies).drag[1] * abs(wg[0]) * wg[0]
     Mc[0] -= drag
     moment = turned_back(A, xyz(Mc))
@@ -83,7 +86,7 @@ def land_forces(y, d, law, mode):
         border[b + c] += Fc[c]
         border[b + TURN + c] += moment[c]
     if mode >= REPORT:
-        copy_into(rep.land, Fc)
+        copy_into(array_from(rep.land, 3 * k), Fc)
         rep.power[DRAG] -= drag * wg[0]
 
 
@@ -106,12 +109,13 @@ def _from_ring(ring, cage, met, forces, work, lw):
 
 
 @outlined
-def _other_ring(y, cage, forces, d, law, mode):
-    """The cage on the ring that does not guide it."""
+def _other_ring(k, y, cage, forces, d, law, mode):
+    """Cage k on the ring that does not guide it."""
     work, data, rep = fields(d.scratch), fields(d.land), fields(d.report)
     land = other_land(data)
     laws, sl = Laws(law[LAND_LAW], law[LAND_RUBS]), fields(d.slices).row[0]
-    lw, onset = fields(d.land_work), fields(d.memory).land[OTHER_LAND:]
+    first = k * LANDS + OTHER_LAND
+    lw, onset = fields(d.land_work), array_from(fields(d.memory).land, first)
     ring = inner_of(y, d) if data.inner == 0 else outer_of(y, d)
     seen, met, pushed, tilted = cage, _land_ring(ring, forces), forces, is_tilted(ring.axis)
     if tilted:
@@ -121,7 +125,8 @@ def _other_ring(y, cage, forces, d, law, mode):
         bring_back(pushed, work.R[0], forces)
     _push_ring(forces, ring.b, work.border)
     if mode >= REPORT:
-        _report_land(lw.st, work.sums, OTHER_LAND, rep)
+        begin = _stations_before(k, fields(d.places), rep) + lw.st.shape[0]
+        _report_land(lw.st, work.sums, first, begin, rep)
 
 
 @part
@@ -133,9 +138,15 @@ def _push_ring(forces, b, border):
 
 
 @part
-def _report_land(st, sums, first, rep):
-    """Report two lands, the ones from ``first`` on, with the forces at their stations."""
-    begin = 0 if first == 0 else st.shape[0]
+def _stations_before(k, at, rep):
+    """So many stations of lands are those of the cages before cage k."""
+    return k * (rep.land_station.shape[0] // at.cages)
+
+
+@part
+def _report_land(st, sums, first, begin, rep):
+    """Report two lands, the ones from ``first`` on, with the forces at their stations, those from
+    ``begin`` on."""
     copy_into(rep.land_station[begin : begin + st.shape[0]], st)
     for c in range(2):
         rep.land_touch[first + c, 0] = sums[NORMAL + c]

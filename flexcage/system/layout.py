@@ -23,7 +23,7 @@ PER_ELEMENT = 6  # coordinates, and velocities, of a rolling element
 RING = 6
 # a floating frame: centre, quaternion, modes; velocity of its centre in space, angular velocity in
 # its own frame, rates of the modes
-CAGE = "cage"  # name of the body that is one
+CAGE = "cage"  # name of the body that is one, or one for each row
 QUATERNION, FRAME = 3, 7  # in its coordinates: where the quaternion begins, and the modes
 RING_FORCES = 4  # of every element on rings that bend: two on either ring
 CONSTRAINTS = ("axial_force", "moment_y", "moment_z", "drive_torque")
@@ -40,8 +40,9 @@ class Places(NamedTuple):
     in y (of their rates in y', of their rows in the residual), b of its velocity in the border."""
 
     elements: int  # so many
-    cages: int  # one or none; the places of one that is not there are behind all other bodies'
-    modes: int  # so many of the cage
+    cages: int  # none, one, or one a row; one that is not there is behind all other bodies
+    in_cage: int  # so many elements in each: those of the second are the ones behind
+    modes: int  # so many of each cage
     inner_modes: int  # so many of the inner ring; they stand behind its six coordinates
     outer_modes: int
     q: int  # of the elements
@@ -52,7 +53,7 @@ class Places(NamedTuple):
     outer_q: int
     outer_u: int
     outer_b: int
-    cage_q: int
+    cage_q: int  # of the first cage, which the others follow (``cage_at``)
     cage_u: int
     cage_b: int
     bodies_q: int  # of all bodies
@@ -64,42 +65,68 @@ class Places(NamedTuple):
     loads: int  # forces that rings which bend bear, behind all else
 
 
+class CagePlaces(NamedTuple):
+    """Places of a cage's first coordinate, velocity and row of the border."""
+
+    q: int
+    u: int
+    b: int
+
+
+@part
+def cage_at(k, at):
+    """Places of cage k, by the ``Places`` of a bearing."""
+    q, u = k * (FRAME + at.modes), k * (RIGID + at.modes)
+    return CagePlaces(at.cage_q + q, at.cage_u + u, at.cage_b + u)
+
+
+@part
+def cage_of(i, at):
+    """Number of the cage of element i."""
+    return 1 if i >= at.in_cage else 0
+
+
 @dataclass(frozen=True)
 class Body:
     """One body of a bearing: its name, how many coordinates its frame has (``RING`` or ``FRAME``),
-    and how many modes it has in that frame."""
+    and how many modes it has in that frame; or ``count`` such bodies, one after the other."""
 
     name: str
     frame: int
     modes: int = 0
+    count: int = 1
 
     @property
     def coordinates(self) -> int:
         """So many, of frame and modes."""
-        return self.frame + self.modes
+        return self.count * (self.frame + self.modes)
 
     @property
     def velocities(self) -> int:
         """So many, of frame and modes."""
-        return RIGID + self.modes
+        return self.count * (RIGID + self.modes)
 
     def views(self, own: np.ndarray, turn: str, end: int) -> dict[str, np.ndarray]:
         """Named views of its coordinates or velocities: of a ring those of its frame, and its
         modes'; of a floating frame its centre's, what stands behind that up to ``end``, called
-        ``turn``, and its modes'."""
+        ``turn``, and its modes', of several (..., count, n)."""
         if self.frame == RING:
             return {self.name: own[..., :RING], f"{self.name}_modes": own[..., RING:]}
+        if self.count > 1:
+            own = own.reshape(*own.shape[:-1], self.count, -1)
         centre, modes = own[..., :QUATERNION], own[..., end:]
         return {self.name: centre, turn: own[..., QUATERNION:end], "modes": modes}
 
 
-def bodies_of_bearing(modes: int | None, ring_modes: tuple[int, int] = (0, 0)) -> tuple[Body, ...]:
-    """Inner ring and outer ring, with so many ``ring_modes``, and a cage with so many ``modes``;
-    None: no cage."""
+def bodies_of_bearing(
+    modes: int | None, ring_modes: tuple[int, int] = (0, 0), cages: int = 1
+) -> tuple[Body, ...]:
+    """Inner ring and outer ring, with so many ``ring_modes``, and so many ``cages``, each with so
+    many ``modes``; None: no cage."""
     rings = (
         Body(name, RING, own) for name, own in zip(("inner", "outer"), ring_modes, strict=True)
     )
-    return *rings, *(() if modes is None else (Body(CAGE, FRAME, modes),))
+    return *rings, *(() if modes is None else (Body(CAGE, FRAME, modes, cages),))
 
 
 @part
@@ -127,13 +154,18 @@ class Layout:
 
     @property
     def modes(self) -> int:
-        """Modes of the cage."""
+        """Modes of each cage."""
         return sum(body.modes for body in self.bodies if body.name == CAGE)
+
+    @property
+    def cages(self) -> int:
+        """So many: none, one, or one for each row of elements."""
+        return sum(body.count for body in self.bodies if body.name == CAGE)
 
     @property
     def has_cage(self) -> bool:
         """Is there a cage?"""
-        return any(body.name == CAGE for body in self.bodies)
+        return self.cages > 0
 
     @property
     def n_q(self) -> int:
@@ -171,7 +203,8 @@ class Layout:
             for kind, place in zip("qub", where, strict=True)
         }
         return Places(
-            elements=self.elements, cages=int(self.has_cage), modes=self.modes,
+            elements=self.elements, cages=self.cages,
+            in_cage=self.elements // max(self.cages, 1), modes=self.modes,
             **{f"{body.name}_modes": body.modes for body in self.bodies if body.frame == RING},
             q=0, u=q, **at, bodies_q=own,
             bodies_u=q + own, border=v, coordinates=q - own, lam=lam, held=lam + N_OWN, loads=end,

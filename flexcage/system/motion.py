@@ -77,7 +77,7 @@ def parts_type(name: str, model: type, module: str) -> Any:
     own: Any = model
     groups = (
         *own._fields, "memory", *Work._fields, "matrix", "events", "samples", "between",
-        "rates", "constraints", "places",
+        "rates", "constraints", "places", "second",
     )  # fmt: skip
     return namedtuple(name, groups, module=module)
 

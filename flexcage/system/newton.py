@@ -22,6 +22,7 @@ from flexcage.system.layout import (
     PER_ELEMENT,
     QUATERNION,
     RING,
+    cage_at,
 )
 from flexcage.system.sampling import give_powers
 
@@ -103,9 +104,10 @@ def _ring_change(s, modes, r):
 
 
 @part
-def _frames(y, r, s, at):
-    """The cage's coordinates, their residuals or changes, and its displacement."""
-    return array_from(y, at.cage_q), array_from(r, at.cage_q), array_from(s, at.cage_b)
+def _frames(k, y, r, s, at):
+    """Coordinates of cage k, their residuals or changes, and its displacement."""
+    own = cage_at(k, at)
+    return array_from(y, own.q), array_from(r, own.q), array_from(s, own.b)
 
 
 @part
@@ -153,8 +155,8 @@ def newton_step(alpha, y, r, at, tan, m):
             s[i, TURN + c] = r[o + tan.turns[c]]
     _ring_displacement(array_from(r, at.inner_q), at.inner_modes, array_from(sb, at.inner_b))
     _ring_displacement(array_from(r, at.outer_q), at.outer_modes, array_from(sb, at.outer_b))
-    if at.cages > 0:
-        cage, r_cage, s_cage = _frames(y, r, sb, at)
+    for k in range(at.cages):
+        cage, r_cage, s_cage = _frames(k, y, r, sb, at)
         _frame_displacement(cage, r_cage, nm, s_cage)
     for k in range(nb):
         f = 0.0
@@ -196,6 +198,6 @@ def newton_step(alpha, y, r, at, tan, m):
             sb[c] += b * tan.held[k, c] * xb[n + N_OWN + further + k]
     _ring_change(array_from(sb, at.inner_b), at.inner_modes, array_from(r, at.inner_q))
     _ring_change(array_from(sb, at.outer_b), at.outer_modes, array_from(r, at.outer_q))
-    if at.cages > 0:
-        cage, r_cage, s_cage = _frames(y, r, sb, at)
+    for k in range(at.cages):
+        cage, r_cage, s_cage = _frames(k, y, r, sb, at)
         _frame_change(cage, s_cage, nm, b, r_cage)

@@ -16,7 +16,7 @@ import numba
 import numpy as np
 from numba import types
 
-from flexcage.bodies.floating_frame import marked
+from flexcage.bodies.floating_frame import BodyData, marked, mirrored
 from flexcage.contacts import laws
 from flexcage.contacts.evaluation import RESIDUAL
 from flexcage.contacts.land import NONE
@@ -31,7 +31,7 @@ from flexcage.solve.oscillators import Oscillators
 from flexcage.system import newton, rates, sampling
 from flexcage.system.constraint_equations import apply_constraints, no_constraints
 from flexcage.system.constraints import ALL_ROWS_TYPE, Constraints, constraints_of, units_of
-from flexcage.system.data import LANDS, POWERS, Memory, Report, Work, new_memory
+from flexcage.system.data import POWERS, Memory, Report, Work, new_memory
 from flexcage.system.integrable import COUNT, REAL, VECTOR, Integrable
 from flexcage.system.layout import RING, Layout, Places
 from flexcage.system.motion import Motion
@@ -67,7 +67,7 @@ class Events(NamedTuple):
     rows: np.ndarray  # (n, 4)
     fill: np.ndarray  # (1,)
     closed: np.ndarray  # (Z, places) contact flags at the last accepted step
-    land: np.ndarray  # (LANDS,) the same for the cage's lands
+    land: np.ndarray  # (cages LANDS,) the same for the cages' lands
     force: np.ndarray  # (2, 3) of the last two accepted steps: time, force on the outer ring
     pocket_force: np.ndarray  # (Z, faces) normal forces in pockets at the last accepted step
     pocket_force_before: np.ndarray  # (Z, faces) at the step before that
@@ -101,7 +101,7 @@ class BetweenSamples(NamedTuple):
     faces of pockets that are touched, one row a face. Full, it keeps the first ones."""
 
     time: np.ndarray  # (n,)
-    modes: np.ndarray  # (n, nm)
+    modes: np.ndarray  # (n, nm), one cage after the other, likewise stations of lands
     land: np.ndarray  # (n, nl, 2)
     touched: np.ndarray  # (n,) rows of each step
     face: np.ndarray  # (n Z, 2) its pocket and its number there
@@ -122,6 +122,7 @@ class BearingData(NamedTuple):
     rates: RatesWork
     constraints: Constraints
     places: Places
+    second: BodyData  # the cage of the second row, if each has one: the first one's mirror image
 
 
 def parts(kind: Any, data: BearingData) -> Any:
@@ -129,7 +130,7 @@ def parts(kind: Any, data: BearingData) -> Any:
     of the type ``Motion.parts``."""
     groups = (
         *data.model, data.memory, *data.work, data.matrix, data.events, data.samples,
-        data.between, data.rates, data.constraints, data.places,
+        data.between, data.rates, data.constraints, data.places, data.second,
     )  # fmt: skip
     return kind(*(boxed(group) for group in groups))
 
@@ -204,14 +205,16 @@ class BearingSystem(Integrable):
             ),
             Events(
                 np.zeros((200_000, 4)), np.zeros(1, np.int64),
-                np.zeros_like(work.report.contact), np.zeros(LANDS, np.int64), np.zeros((2, 3)),
+                np.zeros_like(work.report.contact),
+                np.zeros(len(work.report.land_touch), np.int64), np.zeros((2, 3)),
                 *(np.zeros_like(work.report.pocket_normal) for _ in range(3)),
             ),
             new_samples(block, stride, work.report),
-            new_between(block, interval, layout.modes, work.report),
+            new_between(block, interval, layout.cages * layout.modes, work.report),
             new_rates_work(model.cage.mff),
             held,
             layout.places,
+            mirrored(model.cage) if layout.cages > 1 else model.cage,
         )  # fmt: skip
         bearing = numba.typeof(parts(motion.parts, self.data))
         signature = _evaluation(bearing, ALL_ROWS_TYPE)
@@ -241,8 +244,12 @@ class BearingSystem(Integrable):
     def places(self) -> tuple[str, ...]:
         """Names of all contact places of an element and of the lands, in the order of events."""
         found = self.motion.places(self.data.work.report.rib.shape[1])
-        other = self.data.model.land.other_kind != NONE
-        return (*found, "land -x, other ring", "land +x, other ring") if other else found
+        lands, other = found[-2:], self.data.model.land.other_kind != NONE
+        on_other = tuple(f"{land}, other ring" for land in lands)
+        if self.layout.cages > 1:
+            of_second = tuple(f"{land}, second cage" for land in (*lands, *on_other))
+            return (*found, *on_other, *of_second)
+        return (*found, *on_other) if other else found
 
     @property
     def separate(self) -> tuple[Any, ...]:

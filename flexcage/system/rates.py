@@ -32,11 +32,13 @@ from flexcage.system.data import (
     TRANSVERSE,
 )
 from flexcage.system.equations import speed_at
+from flexcage.system.floating import take_cage
 from flexcage.system.layout import (
     AXIAL_FORCE,
     DRIVE_TORQUE,
     HELD_VELOCITIES,
     Layout,
+    cage_at,
     of_element,
 )
 from flexcage.system.ring import ring_springs
@@ -64,7 +66,7 @@ def new_rates_work(modal_mass: np.ndarray) -> RatesWork:
 
 
 def modal_oscillators(body: BodyData, layout: Layout) -> Oscillators:
-    """The cage's modes as the linear oscillators that they are where its matrices are diagonal.
+    """The cages' modes as the linear oscillators that they are where its matrices are diagonal.
 
     Others, and modes that do not swing (w = 0), are left among the other unknowns.
     """
@@ -75,8 +77,10 @@ def modal_oscillators(body: BodyData, layout: Layout) -> Oscillators:
     squared = np.diag(body.kff) / mass - decay**2
     oscillating = np.flatnonzero(squared > 0.0)
     at = np.arange(layout.size)
-    place = np.stack([layout.q(at)["modes"][oscillating], layout.u(at)["modes"][oscillating]])
-    return Oscillators(place, decay[oscillating], np.sqrt(squared[oscillating]))
+    views = (layout.q(at), layout.u(at))
+    place = np.stack([view["modes"][..., oscillating].ravel() for view in views])
+    alike = (np.tile(x[oscillating], layout.cages) for x in (decay, np.sqrt(squared)))
+    return Oscillators(place, *alike)
 
 
 def rates(t, y, yd, data, power):
@@ -97,12 +101,7 @@ def sample(sample, t, y, yd, data):
 @part
 def _rates(t, y, yd, data, mode):
     d = data[0]
-    bodies, out, frame, at = (
-        fields(d.bodies),
-        fields(d.scratch).out,
-        fields(d.frame),
-        fields(d.places),
-    )
+    bodies, out, at = fields(d.bodies), fields(d.scratch).out, fields(d.places)
     inner, end, law = fields(d.inner_ring), at.lam, data[1]
     ring_q, ring_u, lam = array_from(y, at.inner_q), array_from(y, at.inner_u), array_from(y, end)
     _hold(t, ring_q, ring_u, inner, bodies)
@@ -145,12 +144,22 @@ def _rates(t, y, yd, data, mode):
         lam[DRIVE_TORQUE] = row[U_SPIN] + inner.inertia[AXIAL] * a[U_SPIN]
     # what is held has none
     _by_inertia(fields(d.outer_ring), at.outer_modes, array_from(yd, at.outer_u))
-    if at.cages > 0:
-        cage_accelerations(
-            frame.rigid, frame.coupled, fields(d.cage).plain, fields(d.scratch).A,
-            yd[at.cage_u : at.cage_u + RIGID + at.modes], fields(d.rates),
-        )  # fmt: skip
+    for k in range(at.cages):
+        first = cage_at(k, at).u
+        accelerate_cage(k, y, yd[first : first + RIGID + at.modes], d)
     law[HOLD](t, y, yd, d, law[CONSTRAINT_EQUATIONS], out, BORNE)
+
+
+@part
+def accelerate_cage(k, y, v, d):
+    """Accelerations of cage k and its modes in place of the forces v on them, after an evaluation
+    at y."""
+    frame, work, plain = fields(d.frame), fields(d.rates), fields(d.cage).plain
+    M, H = frame.rigid, frame.coupled
+    if fields(d.places).cages > 1:
+        take_cage(k, y, d)
+        M, H = frame.each_rigid[k], frame.each_coupled[k]
+    cage_accelerations(M, H, plain, fields(d.scratch).A, v, work)
 
 
 @part

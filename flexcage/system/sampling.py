@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from flexcage.contacts.evaluation import OUTER_RING, REPORT
-from flexcage.core.jit import copy_into, fields, part
+from flexcage.core.jit import array_from, copy_into, fields, part
 from flexcage.core.vectors import RIGID, TURN
 from flexcage.system.data import (
     CONSTRAINTS,
@@ -17,7 +17,7 @@ from flexcage.system.data import (
     POCKET,
 )
 from flexcage.system.equations import load_power
-from flexcage.system.layout import DRIVE_TORQUE, FRAME
+from flexcage.system.layout import DRIVE_TORQUE, FRAME, cage_at
 
 
 @part
@@ -107,9 +107,11 @@ def keep_loads(t, y, d):
         clock[1] = t + spacing[1]
     if t > clock[1]:
         return
-    first = fields(d.places).cage_q + FRAME
-    for m in range(between.modes.shape[1]):
-        between.modes[n, m] = y[first + m]
+    at = fields(d.places)
+    for k in range(at.cages):
+        first, modes = cage_at(k, at).q + FRAME, array_from(between.modes[n], k * at.modes)
+        for m in range(at.modes):
+            modes[m] = y[first + m]
     copy_into(between.land[n], rep.land_station)
     between.time[n], between.touched[n] = t, touched
     between.fill[0], between.fill[1] = n + 1, row

@@ -89,21 +89,56 @@ def constrained(
 
 
 def clear_of_land(land: LandData, layout: Layout, y: np.ndarray) -> bool:
-    """Whether the cage's land was in the way of the ring that it rides on; it is moved off it,
+    """Whether a cage's land was in the way of the ring that it rides on; it is moved off it,
     and rolling elements stay in the middle of their pockets."""
-    q = layout.q(y)
     if land.kind == NONE:
         return False
-    ring = q["inner" if land.inner else "outer"][1:3]
-    offset = q["cage"][1:3] - ring
+    q = layout.q(y)
+    ring, cages = q["inner" if land.inner else "outer"][1:3], np.atleast_2d(q["cage"])
+    rows = np.split(q["elements"], len(cages))
+    return any([_clear(land, ring, cage, row) for cage, row in zip(cages, rows, strict=True)])
+
+
+def _clear(land: LandData, ring: np.ndarray, cage: np.ndarray, elements: np.ndarray) -> bool:
+    """The same of one ``cage`` (3,) and its ``elements``, by the centre (2,) of the ring."""
+    offset = cage[1:3] - ring
     share = _CLEAR[land.kind] * land.clearance / max(float(np.linalg.norm(offset)), 1e-12)
     if share >= 1.0:
         return False
     moved = (share - 1.0) * offset
-    q["cage"][1:3] += moved
-    radius, psi = q["elements"][:, 1], q["elements"][:, 2].copy()
-    q["elements"][:, 2] += (moved[1] * np.cos(psi) - moved[0] * np.sin(psi)) / radius
+    cage[1:3] += moved
+    radius, psi = elements[:, 1], elements[:, 2].copy()
+    elements[:, 2] += (moved[1] * np.cos(psi) - moved[0] * np.sin(psi)) / radius
     return True
+
+
+def place_cages(
+    layout: Layout, y: np.ndarray, along: float | np.ndarray, azimuth: np.ndarray
+) -> None:
+    """Put the cages, if any, at places ``along`` the axis, one or (cages,) [m], turned as elements
+    of which each is the first; ``azimuth`` (Z,) is that of the elements."""
+    if layout.has_cage:
+        q = layout.q(y)
+        q["cage"][..., 0], q["quaternion"][..., :2] = along, _half_turns(layout, azimuth)
+
+
+def turn_cages(
+    layout: Layout, y: np.ndarray, yd: np.ndarray, speed: float | np.ndarray, azimuth: np.ndarray
+) -> None:
+    """Let the cages, if any, turn at ``speed``, one or (cages,) [rad/s], from where ``place_cages``
+    put them."""
+    if layout.has_cage:
+        layout.u(y)["omega"][..., 0] = speed
+        cos, sin = np.moveaxis(_half_turns(layout, azimuth), -1, 0)
+        rate = layout.q(yd)["quaternion"]
+        rate[..., 0], rate[..., 1] = 0.0 - 0.5 * speed * sin, 0.5 * speed * cos
+
+
+def _half_turns(layout: Layout, azimuth: np.ndarray) -> np.ndarray:
+    """Cosine and sine of half the turn of each cage, (2,) of one, (cages, 2) of several."""
+    half = 0.5 * azimuth[:: layout.places.in_cage]
+    turns = np.stack([np.cos(half), np.sin(half)], axis=-1)
+    return turns if layout.cages > 1 else turns[0]
 
 
 def strained_by_rotation(body: BodyData, speed: float) -> np.ndarray:

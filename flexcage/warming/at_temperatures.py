@@ -173,8 +173,9 @@ def _speeds(bearing: Bearing, losses: Losses) -> tuple[float, float]:
 
 
 def _cage_area(case: StaticCase) -> float:
-    """Surface [m^2] of a case's cage, as of a plain ring."""
+    """Surface [m^2] of a case's cage, as of a plain ring for each row."""
     cage = case.cage if isinstance(case, Case) else None
     if cage is None:
         return 0.0
-    return float(pi * (cage.bore + cage.outside_diameter) * cage.axial_width)
+    each = pi * (cage.bore + cage.outside_diameter) * cage.axial_width
+    return float(each * case.bearing.row_count)

@@ -41,12 +41,13 @@ SMOOTH = Contacts(race=ELASTIC, pocket=ELASTIC, side=replace(ELASTIC), rib=repla
 DRY = Lubricant(rolling_resistance="none", oil_fraction=0.0)
 
 
-def moving(bearing, *, cage=None, speed=0.0, contacts=None, lubricant=DRY, **load):
-    """A case of a bearing without a cage or with a rigid one, its system and its start."""
+def moving(bearing, *, cage=None, speed=0.0, contacts=None, lubricant=DRY, sections=None, **load):
+    """A case of a bearing without a cage or with a rigid one and further ``sections``, its system
+    and its start."""
     case = Case(
         bearing=bearing, cage=cage, cage_model="rigid" if cage else "none",
         load=Load(**{"gravity": 0.0, **load}), drive=Drive(speed=speed),
-        contacts=contacts or Contacts(), lubricant=lubricant,
+        contacts=contacts or Contacts(), lubricant=lubricant, **(sections or {}),
     )  # fmt: skip
     system = bearing_in_motion(case, cage_mesh(case) if cage else None, None)
     return case, system, assembled_start(case, system)

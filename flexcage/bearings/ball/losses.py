@@ -9,13 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import cos, pi, sin
+from math import cos, nan, pi, sin
 from typing import Any
 
 import numpy as np
 
 from flexcage.bearings.ball.bearing import BallBearing
 from flexcage.contacts.spec import Contacts, Lubricant
+from flexcage.core.errors import RunFailed
 from flexcage.system.statics.losses import (
     Losses,
     Ratio,
@@ -120,10 +121,10 @@ def on_races(bearing: Any, solution: StaticState, k: int) -> list[Touch]:
 
 def ball_losses(
     bearing: BallBearing, solution: StaticState, *, contacts: Contacts, lubricant: Lubricant,
-    touches: Callable[[Any, StaticState, int], list[Touch]] = on_races,
+    touches: Callable[[Any, StaticState, int], list[Touch]] = on_races, orbit: float = nan,
 ) -> Losses:  # fmt: skip
     """Losses of a ball bearing's static solution, whose rings may be of another temperature's;
-    ``touches`` says where a ball bears."""
+    ``touches`` says where a ball bears, ``orbit`` [rad/s] how fast balls go round if none does."""
     e, speed = solution.elements, solution.speed
     ratio = friction_over_speed(contacts.race.friction)
     drag = 0.5 * lubricant.density * lubricant.oil_fraction * lubricant.drag_coefficient
@@ -137,14 +138,18 @@ def ball_losses(
         radius = _orbit_radius(bearing, solution, int(k))
         ball = _Ball(sides, radius, bearing.ball_inertia, drag, ratio)
         first = _rolling(bearing, solution, int(k), ball.radius)
-        speeds = settled_speeds(ball.unbalance, first, abs(speed))
+        speeds = _settled(ball, first, abs(speed))
         lost = ball.lost(speeds)
         sliding += lost[0]
         rolling += lost[1]
         torque += ball.torque(speeds)
         dragged += drag * abs(ball.radius * speeds[3]) ** 3
         found.append((speeds[3], np.linalg.norm(speeds[:3])))
-    orbit, _ = np.mean(found, axis=0)
+    if found:
+        orbit, _ = np.mean(found, axis=0)
+    else:
+        turn = abs(orbit) * bearing.pitch_diameter / bearing.ball_diameter
+        found.append((orbit, np.float64(turn)))
     for k in np.setdiff1d(np.arange(len(e.force)), loaded):
         rolled, in_oil = _unloaded(bearing, float(e.force[k, 1]), orbit, lubricant, drag)
         rolling[1] += rolled
@@ -193,6 +198,19 @@ def _rolling(bearing: BallBearing, solution: StaticState, k: int, radius: float)
     on_inner = (radius * orbit - solution.speed * (radius - half * cos(inner))) / half
     spin = 0.5 * (on_outer + on_inner)
     return np.array([spin * cos(axis), -spin * sin(axis), 0.0, orbit])
+
+
+def _settled(ball: _Ball, first: np.ndarray, size: float) -> np.ndarray:
+    """Steady speeds (4,) of a ball, sought from ``first``; of one that is pressed too lightly to be
+    turned across the bearing's axis, from rolling on both races about that axis."""
+    try:
+        return settled_speeds(ball.unbalance, first, size)
+    except RunFailed:
+        inner, outer = (abs(float(c.points[:, 1].mean())) for c in ball.contacts)
+        surface = ball.contacts[0].ring_speed * (ball.radius - inner)
+        turn = surface / (inner + outer)
+        about = np.array([-turn, 0.0, 0.0, turn * outer / ball.radius])
+        return settled_speeds(ball.unbalance, about, size)
 
 
 def _unloaded(

@@ -12,7 +12,7 @@ from flexcage.bearings.ball.bearing import BallBearing
 from flexcage.bearings.ball.neighbours import ball_ball_data
 from flexcage.bodies.floating_frame import BodyData, no_body
 from flexcage.cages.round_pocket.cage import BallCage
-from flexcage.cages.round_pocket.interface import BallCageInterface
+from flexcage.cages.round_pocket.interface import BallCageInterface, mirror_image
 from flexcage.contacts import laws
 from flexcage.contacts.ball_ball import BallBallContact
 from flexcage.contacts.ball_pocket import (
@@ -120,20 +120,22 @@ def pocket_contact(bearing: BallBearing, cage: BallCage, radius: float) -> Point
     return PointContact(rolling=along, transverse=fit, modulus=modulus)
 
 
-def in_all_rows(interface: BallCageInterface, bearing: BallBearing) -> BallCageInterface:
+def in_all_rows(
+    interface: BallCageInterface, bearing: BallBearing, cages: int
+) -> BallCageInterface:
     """The interface of a row's cage as one of the pockets of all rows; itself of a single row. That
-    of a second row is its mirror image."""
+    of a second row is its mirror image. Of several ``cages`` each stands in its row's middle."""
     if bearing.row_count == 1:
         return interface
-    rows = []
-    for row, mirrored in zip(bearing.row_places, _mirrored(bearing)):
-        along = np.array([-1.0 if mirrored else 1.0, 1.0])
-        rows.append(interface.centre * along + np.array([row.place, 0.0]))
+    rows = [mirror_image(interface) if mirrored else interface for mirrored in _mirrored(bearing)]
+    along = [row.place if cages == 1 else 0.0 for row in bearing.row_places]
+    centres = [own.centre + np.array([x, 0.0]) for own, x in zip(rows, along, strict=True)]
     alike = {
-        name: np.concatenate([getattr(interface, name)] * bearing.row_count)
-        for name in ("modes", "local", "radius", "slot")
+        name: np.concatenate([getattr(own, name) for own in rows])
+        for name in ("modes", "local", "radius", "slot", "offset", "open_at")
+        if getattr(interface, name) is not None
     }
-    return replace(interface, centre=np.concatenate(rows), **alike)
+    return replace(interface, centre=np.concatenate(centres), **alike)
 
 
 def _mirrored(bearing: BallBearing) -> list[bool]:
@@ -145,7 +147,11 @@ def _pockets(
     bearing: BallBearing, cage: BallCage, contacts: Contacts, interface: BallCageInterface
 ) -> BallPockets:
     st = np.ascontiguousarray
-    angle, interface = bearing.element_azimuths, in_all_rows(interface, bearing)
+    cages = cage.count_in(bearing)
+    angle = bearing.element_azimuths
+    if cages > 1:  # each turns with its row
+        angle = np.tile(bearing.one_row.element_azimuths, cages)
+    interface = in_all_rows(interface, bearing, cages)
     theta = interface.stations
     normal = np.sin(theta)[None, :, None] * interface.modes[:, :, 0]
     normal = normal + np.cos(theta)[None, :, None] * interface.modes[:, :, 2]

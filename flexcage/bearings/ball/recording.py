@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from flexcage.bearings.ball.model import BallModel
 from flexcage.contacts.ball_pocket import SPHERE
+from flexcage.integrate.postures import seen_from_cages
 from flexcage.integrate.recording import Recording
 from flexcage.system.layout import Layout
 from flexcage.system.problem import BearingSystem
@@ -70,8 +70,7 @@ def overlaps(model: BallModel, layout: Layout, y: np.ndarray) -> np.ndarray:
     gaps = gaps_to_next(q["elements"], radius)
     if not layout.has_cage:
         return np.stack([*races, gaps], axis=-1)
-    frames = Rotation.from_quat(q["quaternion"], scalar_first=True).as_matrix()
-    seen = np.einsum("nzc,ncd->nzd", at - q["cage"][:, None], frames)
+    seen = seen_from_cages(q, at)
     cos, sin = model.pocket.azimuth.T
     ahead = seen[..., 2] * cos - seen[..., 1] * sin - model.pocket.shift[:, 1]
     aside = seen[..., 0] - model.pocket.shift[:, 0]

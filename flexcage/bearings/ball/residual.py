@@ -28,7 +28,6 @@ from flexcage.contacts.groove import BallOnRace, groove_contact
 from flexcage.contacts.slices import Laws
 from flexcage.contacts.state import Q_SPIN, CageModes, set_frame
 from flexcage.core.jit import array_from, copy_into, fields, outlined, part, zero
-from flexcage.core.rotation import matrix_from_quaternion
 from flexcage.core.vectors import (
     MOMENT,
     RIGID,
@@ -63,8 +62,8 @@ from flexcage.system.data import (
     ROLLING_RESISTANCE,
 )
 from flexcage.system.equations import clear_sums, push_pair
-from flexcage.system.floating import modes_at, push_modes
-from flexcage.system.layout import FRAME, QUATERNION, of_element
+from flexcage.system.floating import modes_at, push_modes, take_cage
+from flexcage.system.layout import FRAME, cage_at, cage_of, of_element
 from flexcage.system.ring import inner_of, outer_of, set_axes
 
 # places in ``law``: the family's functions ``separate``
@@ -97,20 +96,25 @@ def evaluate(t, y, yd, d, law, out, mode):
 
 @part
 def set_bodies(y, d, mode):
-    """Cage's attitude and spin, axes and spins of the rings, and no forces yet; the cage's
-    modes."""
-    work, phi_max, at = fields(d.scratch), fields(d.pocket).phi_max, fields(d.places)
+    """Attitude and spin of the first cage, axes and spins of the rings, and no forces yet; that
+    cage's modes."""
+    work, at = fields(d.scratch), fields(d.places)
     clear_sums(work.border, d, mode)
-    qf = y[modes_at(at.cage_q + FRAME, at.modes)]
-    qfd = y[modes_at(at.cage_u + RIGID, at.modes)]
     if at.cages > 0:
-        matrix_from_quaternion(array_from(y, at.cage_q + QUATERNION), work.A)
-        put(work.vec[CAGE_SPIN], turned(work.A, turn_of(array_from(y, at.cage_u))))
+        take_cage(0, y, d)
     set_axes(y, d)
-    margin = 0.0
+    zero(work.wrenches)
+    return modes_of_cage(0, y, d)
+
+
+@part
+def modes_of_cage(k, y, d):
+    """Modes of cage k in y."""
+    phi_max, at = fields(d.pocket).phi_max, fields(d.places)
+    own, margin = cage_at(k, at), 0.0
+    qf, qfd = y[modes_at(own.q + FRAME, at.modes)], y[modes_at(own.u + RIGID, at.modes)]
     for m in range(at.modes):
         margin += phi_max[m] * abs(qf[m])
-    zero(work.wrenches)
     return CageModes(qf, qfd, margin)
 
 
@@ -172,7 +176,7 @@ def report_race(i, side, sums, rep):
 
 @part
 def ball_in_pocket(i, qi, ui, Rc, Vc, modes, d, law, mode):
-    """Ball i in its pocket; the cage is at Rc and moves as Vc."""
+    """Ball i in its pocket; its cage is at Rc and moves as Vc."""
     data, pw, pair, work = (
         fields(d.pocket),
         fields(d.pocket_work),
@@ -186,8 +190,9 @@ def ball_in_pocket(i, qi, ui, Rc, Vc, modes, d, law, mode):
     hit = pocket_wall_contact(i, ball, modes, data, laws, sl, pw, pair.wrench, mode, sums)
     if hit:
         at = fields(d.places)
-        push_pair(i, pair.wrench, work.A, ball.centre, at.cage_b, d)
-        push_modes(data, i, pw, work.border[modes_at(at.cage_b + RIGID, at.modes)])
+        b = cage_at(cage_of(i, at), at).b
+        push_pair(i, pair.wrench, work.A, ball.centre, b, d)
+        push_modes(data, i, pw, work.border[modes_at(b + RIGID, at.modes)])
     if mode >= REPORT:
         _report_pocket(i, hit, sums, pw, fields(d.report), mode)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from flexcage.results.metrics import carrier_speed
+from flexcage.results.metrics import carrier_speeds
 from flexcage.results.slip import (
     BearingNumbers,
     ElementSpeed,
@@ -22,7 +22,7 @@ def spin(ds: xarray.Dataset) -> xarray.DataArray:
     mean orbit, (time, element) [rad/s]; negative where it turns about the bearing axis against the
     sense of rolling."""
     omega = ds["element_omega"].transpose("time", "element", "spin_axis")
-    axial = omega.sel(spin_axis="axial", drop=True) - carrier_speed(ds)
+    axial = omega.sel(spin_axis="axial", drop=True) - carrier_speeds(ds)
     across = (omega.sel(spin_axis=["radial", "tangential"]) ** 2).sum("spin_axis")
     speed = (axial**2 + across) ** 0.5
     out: xarray.DataArray = speed.where(rolling_sense(ds) * axial >= 0.0, -speed)

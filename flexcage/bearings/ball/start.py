@@ -21,7 +21,12 @@ from flexcage.system.begun import Advance, Start, StaticStart
 from flexcage.system.layout import Layout
 from flexcage.system.problem import BearingSystem
 from flexcage.system.rings.moving import SIDES
-from flexcage.system.start import clear_of_land, strained_by_rotation
+from flexcage.system.start import (
+    clear_of_land,
+    place_cages,
+    strained_by_rotation,
+    turn_cages,
+)
 from flexcage.system.statics.solution import StaticSolution
 
 _ALIKE = 1e-3  # rad: contact angles closer than this leave a ball's axis to their mean
@@ -44,8 +49,9 @@ def begun(bearing: BearingSystem, solution: StaticSolution, y: np.ndarray) -> St
     assert isinstance(bearing.spec, BallBearing)
     turn_spots(bearing.spec.ball_spot, bearing.layout, y, yd)
     if bearing.layout.modes:
-        spin = float(bearing.layout.u(y)["omega"][0])
-        bearing.layout.q(y)["modes"][:] = strained_by_rotation(model.cage, spin)
+        spins, modes = bearing.layout.u(y)["omega"], bearing.layout.q(y)["modes"]
+        for spin, own in zip(np.atleast_2d(spins), np.atleast_2d(modes), strict=True):
+            own[:] = strained_by_rotation(model.cage, float(spin[0]))
     station = np.zeros_like(bearing.data.work.report.station)
     return Start(y, yd, (), 0.0, solution.unbalanced, station, solution.warnings)
 
@@ -92,8 +98,9 @@ def placed(
     turned = tilt * np.cos(psi) - skew * np.sin(psi)
     q["elements"][:, 0] += along - r * turned
     q["elements"][:, 1] += up * np.cos(psi) + aside * np.sin(psi) + x * turned
-    if layout.has_cage:
-        q["cage"][0], q["quaternion"][0] = q["elements"][:, 0].mean(), 1.0
+    rows = np.split(q["elements"][:, 0], max(layout.cages, 1))
+    along = np.array([row.mean() for row in rows])
+    place_cages(layout, y, along if layout.cages > 1 else along[0], balls.azimuth)
     return y
 
 
@@ -105,9 +112,9 @@ def rolling_balls(
     q, u, qd = layout.q(y), layout.u(y), layout.q(yd)
     speed = float(np.interp(0.0, *model.bodies.speed))
     orbit = np.nan_to_num(solution.elements.orbital_speed)
-    bears = (solution.elements.force > 0.0).all(axis=1)
-    cage = float(orbit[bears].mean()) if bears.any() else float(orbit.mean())
-    orbit = np.where(bears, orbit, cage)
+    bears = np.asarray((solution.elements.force > 0.0).all(axis=1))
+    cages = _speeds_of_cages(orbit, bears, max(layout.cages, 1))
+    orbit = np.where(bears, orbit, np.repeat(cages, layout.elements // len(cages)))
     r, rb = q["elements"][:, 1], model.bodies.radius
     u["elements"][:, 2] = r * orbit
     inner, outer = np.nan_to_num(solution.elements.angle).T
@@ -118,9 +125,15 @@ def rolling_balls(
     qd["elements"][:, 2] = orbit
     qd["elements"][:, 3:] = u["elements"][:, 3:]
     u["inner"][3] = qd["inner"][5] = speed
-    if layout.has_cage:
-        u["omega"][0], qd["quaternion"][1] = cage, 0.5 * cage
+    turn_cages(layout, y, yd, cages if layout.cages > 1 else cages[0], solution.elements.azimuth)
     return yd
+
+
+def _speeds_of_cages(orbit: np.ndarray, bears: np.ndarray, count: int) -> np.ndarray:
+    """Mean orbital speeds (count,) of the balls of each cage that bear load, or of all where none
+    does."""
+    rows = zip(np.split(orbit, count), np.split(bears, count), strict=True)
+    return np.array([row[loaded if loaded.any() else ...].mean() for row, loaded in rows])
 
 
 def turn_spots(spot: BallSpot, layout: Layout, y: np.ndarray, yd: np.ndarray) -> None:

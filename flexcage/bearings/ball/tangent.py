@@ -38,7 +38,7 @@ from flexcage.system.data import (
     MASS,
     OUTER_RACE,
 )
-from flexcage.system.layout import of_element
+from flexcage.system.layout import cage_at, cage_of, of_element
 from flexcage.system.ring import inner_of, outer_of
 
 
@@ -106,7 +106,8 @@ def pocket_slopes(i, qi, ui, Rc, Vc, modes, d, law):
     V, w = xyz(ui), turn_of(ui)
     spin = turned(F, xyz(work.vec[CAGE_SPIN]))
     by = RelativeMotion(ball.centre, minus(V, turned(F, xyz(Vc))), spin, V, w, qi[1])
-    b = fields(d.places).cage_b
+    at = fields(d.places)
+    b = cage_at(cage_of(i, at), at).b
     body = BodyUnknowns(b, 6, 0, 1, b + RIGID)
     add_contact_tangent(i, by, body, moves, pw.K, pw.C, wrench, pw.gen[0], tan)
 

@@ -10,7 +10,7 @@ clearance moves them by is left out of the speeds, 1e-4 of these.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import copysign
+from math import copysign, nan
 
 import numpy as np
 
@@ -112,9 +112,11 @@ class _Roller:
 
 
 def roller_losses(
-    bearing: RollerBearing, solution: StaticState, *, contacts: Contacts, lubricant: Lubricant
-) -> Losses:
-    """Losses of a cylindrical roller bearing's static solution."""
+    bearing: RollerBearing, solution: StaticState, *, contacts: Contacts, lubricant: Lubricant,
+    orbit: float = nan,
+) -> Losses:  # fmt: skip
+    """Losses of a cylindrical roller bearing's static solution; ``orbit`` [rad/s]: how fast rollers
+    go round if none bears load."""
     e, speed = solution.elements, solution.speed
     drag = 0.5 * lubricant.density * lubricant.oil_fraction * lubricant.drag_coefficient
     drag *= bearing.roller_diameter * bearing.roller_length
@@ -130,8 +132,8 @@ def roller_losses(
             _ribs(bearing, 0.0 if e.axial is None else float(e.axial[k]), speed),
             bearing.pitch_radius, drag, ratios,
         )  # fmt: skip
-        orbit = float(e.orbital_speed[k])
-        first = np.array([orbit - (speed - orbit) * races[0].radius / races[0].roller, orbit])
+        rolls = float(e.orbital_speed[k])
+        first = np.array([rolls - (speed - rolls) * races[0].radius / races[0].roller, rolls])
         speeds = settled_speeds(roller.unbalance, first, abs(speed))
         acts, rubbed = roller.acts(speeds)
         sliding += [a[2] for a in acts]
@@ -140,7 +142,10 @@ def roller_losses(
         torque += roller.torque(speeds)
         dragged += drag * abs(bearing.pitch_radius * speeds[1]) ** 3
         found.append((speeds[1], abs(speeds[0])))
-    orbit = float(np.mean([o for o, _ in found]))
+    if found:
+        orbit = float(np.mean([o for o, _ in found]))
+    else:
+        found.append((orbit, abs(orbit) * (races[1].radius / races[1].roller - 1.0)))
     for k in np.setdiff1d(np.arange(len(e.force)), loaded):  # on the outer race alone
         turn = orbit * (1.0 - races[1].radius / races[1].roller)
         lost = races[1].act(ratios[0], float(e.force[k, 1]), turn, orbit)[3]

@@ -33,7 +33,7 @@ from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT
 from flexcage.contacts.uneven import is_uneven, spread, uneven_race
 from flexcage.geometry.spot import marked
-from flexcage.modes.basis import CageInterface
+from flexcage.modes.basis import CageInterface, mirror_image
 from flexcage.system.bodies import (
     bodies_of,
     elastic_constants,
@@ -239,12 +239,14 @@ def _rib_data(
 
 
 def _in_all_rows(interface: CageInterface, rows: int) -> CageInterface:
-    """The interface of a row's cage as one of the pockets of all rows."""
+    """The interface of a row's cage as one of the pockets of all rows; that of further rows is its
+    mirror image."""
     if rows == 1:
         return interface
-    names = ("offset", "modes", "residual", "compliance")
+    names, each = ("offset", "modes", "residual", "compliance"), mirror_image(interface)
     all_rows: dict[str, Any] = {
-        name: np.concatenate([getattr(interface, name)] * rows) for name in names
+        name: np.concatenate([getattr(interface, name), *[getattr(each, name)] * (rows - 1)])
+        for name in names
     }
     return replace(interface, **all_rows)
 
@@ -256,11 +258,14 @@ def _places_of_rows(bearing: RollerBearing) -> np.ndarray:
 
 def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) -> PocketData:
     s, drop = slice_grid(bearing, contacts.pocket.slices)
-    interface = _in_all_rows(interface, bearing.row_count)
+    interface, cages = _in_all_rows(interface, bearing.row_count), cage.count_in(bearing)
     at = interface.stations if interface.offset_at is None else interface.offset_at
+    angle, place = bearing.element_azimuths, _places_of_rows(bearing)
+    if cages > 1:  # each stands in the middle of its row, and turns with it
+        angle, place = np.tile(bearing.one_row.element_azimuths, cages), 0.0 * place
     return pocket_arrays(
-        interface, interface.modes, interface.stations, at, contacts, bearing.element_azimuths,
-        place=_places_of_rows(bearing), s=s, drop=drop,
+        interface, interface.modes, interface.stations, at, contacts, angle,
+        place=place, s=s, drop=drop,
         half=0.5 * np.array([cage.pocket_width, cage.pocket_length]),
         points=end_points(bearing, cage), half_roller=0.5 * bearing.roller_length, middle=0.0,
         normal=_pocket_laws(bearing, cage, contacts, interface),

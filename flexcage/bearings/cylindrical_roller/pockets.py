@@ -58,8 +58,8 @@ from flexcage.system.data import (
     POCKET_FRICTION,
 )
 from flexcage.system.equations import push_pair
-from flexcage.system.floating import modes_at, push_modes
-from flexcage.system.layout import FRAME, of_element
+from flexcage.system.floating import modes_at, push_modes, take_cage
+from flexcage.system.layout import FRAME, cage_at, cage_of, of_element
 from flexcage.system.ring import inner_of, outer_of
 
 
@@ -67,21 +67,24 @@ def roller_pockets(t, y, yd, d, law, out, mode):
     """Add the pockets' wrenches to ``Scratch.wrenches`` and ``border``; for other arguments see
     ``residual.evaluate``. Poses of rollers and cage are in ``Scratch`` already."""
     work, at, q = fields(d.scratch), fields(d.places), y[: fields(d.places).bodies_q]
-    modes = modes_of_cage(y, d)
-    Rc, Vc = array_from(y, at.cage_q), array_from(y, at.cage_u)
+    modes, cage = modes_of_cage(0, y, d), cage_at(0, at)
     for i in range(at.elements):
+        if i == at.in_cage:  # each row has a cage
+            take_cage(1, y, d)
+            modes, cage = modes_of_cage(1, y, d), cage_at(1, at)
         take_pose(work.poses[i], fields(d.pose))
+        Rc, Vc = array_from(y, cage.q), array_from(y, cage.u)
         _pocket(i, q[of_element(i)], Rc, Vc, modes, d, law, mode)
         if mode >= REPORT:
             _approach(i, inner_of(y, d).u, outer_of(y, d).u, d)
 
 
 @part
-def modes_of_cage(y, d):
-    """The cage's modes in y."""
+def modes_of_cage(k, y, d):
+    """Modes of cage k in y."""
     work, phi_max, at = fields(d.scratch), fields(d.pocket).phi_max, fields(d.places)
-    nm, modal = at.modes, work.modal
-    qf, qfd = array_from(y, at.cage_q + FRAME), array_from(y, at.cage_u + RIGID)
+    nm, modal, own = at.modes, work.modal, cage_at(k, at)
+    qf, qfd = array_from(y, own.q + FRAME), array_from(y, own.u + RIGID)
     margin = 0.0
     for m in range(nm):
         margin += phi_max[m] * abs(qf[m])
@@ -91,7 +94,7 @@ def modes_of_cage(y, d):
 
 @part
 def _pocket(i, qi, Rc, Vc, modes, d, law, mode):
-    """Roller i in its pocket; the cage is at Rc and moves as Vc."""
+    """Roller i in its pocket; its cage is at Rc and moves as Vc."""
     pose, pair, pw, work = fields(d.pose), fields(d.pair), fields(d.pocket_work), fields(d.scratch)
     data, memory = fields(d.pocket), fields(d.memory)
     F, A, vec, sums, border = pose.F, work.A, work.vec, work.sums, work.border
@@ -111,8 +114,9 @@ def _pocket(i, qi, Rc, Vc, modes, d, law, mode):
     sl, at = fields(d.slices).row[0], fields(d.places)
     hit = pocket_contact(i, roller, cage, data, laws, sl, pw, pair, mode, sums)
     if hit:
-        push_pair(i, pair.wrench, A, xyz(D), at.cage_b, d)
-        push_modes(data, i, pw, border[modes_at(at.cage_b + RIGID, at.modes)])
+        b = cage_at(cage_of(i, at), at).b
+        push_pair(i, pair.wrench, A, xyz(D), b, d)
+        push_modes(data, i, pw, border[modes_at(b + RIGID, at.modes)])
     if mode == TANGENT:
         scatter_pocket(i, hit, modes, d)
     elif mode >= REPORT:
@@ -123,16 +127,16 @@ def _pocket(i, qi, Rc, Vc, modes, d, law, mode):
 def scatter_pocket(i, hit, modes, d):
     """The share of pocket i in the tangent, if its roller touches it."""
     tan, work, at, F = fields(d.tangent), fields(d.scratch), fields(d.places), fields(d.pose).F
-    pw, D = fields(d.pocket_work), work.vec[LEVER]
+    pw, D, b = fields(d.pocket_work), work.vec[LEVER], cage_at(cage_of(i, at), at).b
     tan.active[i] = 1 if hit else 0
     if hit:
         copy_into(work.R[0], F)
         for c in range(3):
             put(work.R[1, c], turned_back(work.A, row(F, c)))
         shift_matrix(work.R, D, work.S)
-        scatter(fields(d.pair), work.S, i, at.cage_b, tan, work.T6)
+        scatter(fields(d.pair), work.S, i, b, tan, work.T6)
         if modes.q.shape[0] > 0:
-            scatter_modes(i, pw, work.S, at.cage_b, tan, at.modes)
+            scatter_modes(i, pw, work.S, b, tan, at.modes)
 
 
 @outlined

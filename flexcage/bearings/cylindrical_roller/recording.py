@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from flexcage.bearings.cylindrical_roller.model import RollerModel, rib_columns
 from flexcage.contacts.pocket_wall import N_LOCAL
-from flexcage.integrate.postures import orientation, to_body
+from flexcage.integrate.postures import orientation, seen_from_cages, to_body
 from flexcage.integrate.recording import Recording
 from flexcage.system.layout import Layout
 from flexcage.system.problem import BearingSystem
@@ -133,8 +132,7 @@ def overlaps(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarray:
 def _in_walls(model: RollerModel, q: dict[str, np.ndarray], at: np.ndarray) -> list[np.ndarray]:
     """Depths (n, Z) of rollers at places (n, Z, 3) in the four faces of their pockets."""
     radius, end, (cos, sin) = model.bodies.radius, model.pocket.half_roller, model.pocket.azimuth.T
-    frames = Rotation.from_quat(q["quaternion"], scalar_first=True).as_matrix()
-    seen = np.einsum("nzc,ncd->nzd", at - q["cage"][:, None], frames)
+    seen = seen_from_cages(q, at)
     ahead = seen[..., 2] * cos - seen[..., 1] * sin
     beside = seen[..., 0] - model.pocket.place
     walls = np.repeat(model.pocket.half, 2) + np.maximum(model.pocket.offset.max(axis=2), 0.0)

@@ -44,13 +44,11 @@ from flexcage.contacts.state import (
     shift_matrix,
     take_pose,
 )
-from flexcage.core.jit import array_from, copy_into, fields, part, zero
-from flexcage.core.rotation import matrix_from_quaternion
+from flexcage.core.jit import copy_into, fields, part, zero
 from flexcage.core.vectors import RIGID, minus, put, turn_of, turned, xyz
 from flexcage.system.blocks import scatter
 from flexcage.system.data import (
     AXIAL,
-    CAGE_SPIN,
     DRAG,
     FAMILY_PARTS,
     GRAVITY,
@@ -68,7 +66,8 @@ from flexcage.system.data import (
     TRANSVERSE,
 )
 from flexcage.system.equations import clear_sums, push_pair
-from flexcage.system.layout import QUATERNION, of_element
+from flexcage.system.floating import take_cage
+from flexcage.system.layout import of_element
 from flexcage.system.ring import inner_of, outer_of, set_axes
 
 # places in ``law``: the family's functions ``separate``
@@ -120,14 +119,13 @@ def evaluate(t, y, yd, d, law, out, mode):
 
 @part
 def set_bodies(y, d, mode):
-    """Attitude and spin of the cage, axes and spins of the rings, poses of the rollers, and no
-    forces yet."""
+    """Attitude and spin of the first cage, axes and spins of the rings, poses of the rollers, and
+    no forces yet."""
     work, pose, at = fields(d.scratch), fields(d.pose), fields(d.places)
     q, u = y[: at.bodies_q], y[at.u : at.bodies_u]
     clear_sums(work.border, d, mode)
     if at.cages > 0:
-        matrix_from_quaternion(array_from(y, at.cage_q + QUATERNION), work.A)
-        put(work.vec[CAGE_SPIN], turned(work.A, turn_of(array_from(y, at.cage_u))))
+        take_cage(0, y, d)
     set_axes(y, d)
     zero(work.wrenches)
     for i in range(at.elements):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from flexcage.core.errors import InputError
-from flexcage.results.metrics import carrier_speed
+from flexcage.results.metrics import carrier_speeds
 from flexcage.results.slip import BearingNumbers, ElementSpeed, rolling_sense, slip_of
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def slip_ratio(
         ideal = ds["inner_speed"] * unit.element_spin
     elif frame == "cage":
         ideal = ds["inner_speed"] * unit.element_spin_in_cage
-        spin = spin - carrier_speed(ds)
+        spin = spin - carrier_speeds(ds)
     else:
         raise InputError(f"Slip is taken in the frame 'inertial' or 'cage', not {frame!r}.")
     out = slip_of(ideal, spin)

@@ -28,6 +28,7 @@ from flexcage.contacts.race import RaceSide
 from flexcage.contacts.state import U_SKEW, U_TILT
 from flexcage.contacts.uneven import is_uneven
 from flexcage.core.errors import InputError, RunFailed
+from flexcage.core.vectors import RIGID
 from flexcage.geometry.kinematics import epicyclic
 from flexcage.system.begun import Advance, Start, StaticStart
 from flexcage.system.constraints import OFF, no_rows
@@ -40,7 +41,7 @@ from flexcage.system.rings.modes_data import standing
 from flexcage.system.rings.moving import MovingRings, held_rings
 from flexcage.system.rings.neglected import neglected_at_ribs
 from flexcage.system.rings.sections import lands_follow
-from flexcage.system.start import clear_of_land
+from flexcage.system.start import clear_of_land, place_cages, turn_cages
 
 _SMALL = 1e-7  # of the load: where an equilibrium is accepted
 _BALANCED = 1e-6  # of the load: what may stay unbalanced at last
@@ -76,8 +77,7 @@ def rolling_velocities(model: RollerModel, layout: Layout, y: np.ndarray) -> np.
     qd["elements"][:, 2] = k.cage_speed
     qd["elements"][:, 5] = k.element_spin - k.cage_speed * np.cos(skew) * np.cos(tilt)
     u["inner"][3] = qd["inner"][5] = speed
-    if layout.has_cage:
-        u["omega"][0], qd["quaternion"][1] = k.cage_speed, 0.5 * k.cage_speed
+    turn_cages(layout, y, yd, k.cage_speed, model.rows.azimuth)
     return yd
 
 
@@ -109,14 +109,11 @@ def geometric_guess(model: RollerModel, layout: Layout) -> np.ndarray:
     if ring.free[0]:
         q["inner"][0] = _axial_place(model)
     q["elements"][:, 0] = _between_ribs(model, layout, y)
-    if layout.has_cage:
-        q["quaternion"][0] = 1.0
+    middles = model.rows.place[:: model.rows.each] if layout.cages > 1 else 0.0
+    place_cages(layout, y, middles, model.rows.azimuth)
     if layout.has_cage and ring.free[0]:
-        q["cage"][0] = (
-            q["inner"][0]
-            if _guided_by_inner(model)
-            else (q["elements"][0, 0] - model.rows.place[0])
-        )
+        along = q["elements"][0, 0] - model.rows.place[0]
+        q["cage"][..., 0] += q["inner"][0] if _guided_by_inner(model) else along
     shift = float(mount.bore[CLEARANCE]) if mount.loose else 0.0
     q["outer"][1:3] = shift * model.bodies.load_direction  # a ring in its bore lies on the ground
     psi = q["elements"][:, 2]
@@ -215,8 +212,9 @@ class _Frictionless:
         self._evaluate(y, yd, TANGENT)
         roller, row = np.nonzero(held.rollers)
         tangent.Krr[roller, row, row] += _HOLD
-        row = at.cage_b + np.flatnonzero(held.cage)  # a cage that is not there is not held
-        tangent.Kbb[row, row] += _HOLD
+        for k in range(at.cages):
+            row = at.cage_b + k * (RIGID + at.modes) + np.flatnonzero(held.cage)
+            tangent.Kbb[row, row] += _HOLD
         if not assemble(alpha, self.data.model.bodies, at, tangent, self.data.matrix):
             raise RunFailed("the start's equilibrium has a singular matrix; is a body massless?")
         r = r.copy()
@@ -350,7 +348,7 @@ def _equilibrate(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np
         rows = layout.u(r)
         rows["elements"][held.rollers] = 0.0
         if held.cage.any():
-            rows["cage"][held.cage[:3]], rows["omega"][held.cage[3:]] = 0.0, 0.0
+            rows["cage"][..., held.cage[:3]], rows["omega"][..., held.cage[3:]] = 0.0, 0.0
         size = _measure(layout, r, lever, held, free) / load
         if size < _SMALL:
             break
@@ -368,9 +366,10 @@ def _equilibrate(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np
             y[n_qu + loose] += step[n_qu + loose] * share
             layout.q(y)["elements"][:, 0] += _between_ribs(model, layout, y) - ribs
             if layout.has_cage and _guided_by_inner(model):
-                layout.q(y)["cage"][0] += dq["inner"][0] * share
+                layout.q(y)["cage"][..., 0] += dq["inner"][0] * share
         if layout.has_cage:
-            layout.q(y)["quaternion"][:] /= np.linalg.norm(layout.q(y)["quaternion"])
+            for quaternion in np.atleast_2d(layout.q(y)["quaternion"]):
+                quaternion /= np.linalg.norm(quaternion)
         yd[:] = standing_cage(model, layout, y)
     return size
 

@@ -20,6 +20,7 @@ FAMILY = Family(
     speed=lambda: slots.speed,
     figures=lambda: slots.figures,
     rubbing=lambda: slots.rubbing,
+    losses=lambda: slots.losses,
     shapes=lambda: slots.shapes,
     inside=lambda: slots.inside,
     catalogue=f"{__name__}.catalogue",

@@ -13,8 +13,11 @@ from flexcage.geometry.cage import Cage
 
 
 def land(bearing: DoubleRowRollerBearing, cage: Cage) -> RingLand:
-    """Where the outward ends of a common cage face the ring that guides it."""
+    """Where the ends of a row's cage face the ring that guides it, or the outward ones of a common
+    cage."""
     own = lands.land(bearing.row, cage)
+    if cage.count_in(bearing) > 1:
+        return own
     return replace(own, end=min(own.end + 0.5 * bearing.row_distance, 0.5 * bearing.width))
 
 

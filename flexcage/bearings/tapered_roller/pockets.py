@@ -35,7 +35,7 @@ def cone_pockets(t, y, yd, d, law, out, mode):
     """Add the pockets' wrenches to ``Scratch.wrenches`` and ``border``, as
     ``cylindrical_roller.pockets.roller_pockets``."""
     at, work = fields(d.places), fields(d.scratch)
-    q, modes = y[: at.bodies_q], modes_of_cage(y, d)
+    q, modes = y[: at.bodies_q], modes_of_cage(0, y, d)
     Rc, Vc = array_from(y, at.cage_q), array_from(y, at.cage_u)
     for i in range(at.elements):
         take_pose(work.poses[i], fields(d.pose))

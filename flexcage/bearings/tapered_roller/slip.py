@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from flexcage.results.metrics import carrier_speed
+from flexcage.results.metrics import carrier_speeds
 from flexcage.results.slip import BearingNumbers, ElementSpeed, rolling_sense, slip_of
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ def spin(ds: xarray.Dataset) -> xarray.DataArray:
     mean orbit, (time, element) [rad/s]; positive in the sense of rolling."""
     skew, tilt = (ds["element_tilt"].sel(tilt=name, drop=True) for name in ("skew", "tilt"))
     lean = np.cos(skew) * np.cos(tilt)
-    own = ds["element_omega"].isel(spin_axis=0, drop=True) - carrier_speed(ds) * lean
+    own = ds["element_omega"].isel(spin_axis=0, drop=True) - carrier_speeds(ds) * lean
     out: xarray.DataArray = rolling_sense(ds) * own
     out.attrs = {"units": "rad/s", "long_name": "speed of the roller about its axis, cage frame"}
     return out.transpose("time", "element").rename("element_spin")

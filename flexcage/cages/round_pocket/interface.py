@@ -10,7 +10,7 @@ by the same spread force.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
@@ -66,9 +66,30 @@ class BallCageInterface:
     open_at: np.ndarray | None = None
 
     @property
+    def across(self) -> tuple[np.ndarray, np.ndarray]:
+        """Of the one face, the station at minus the angle."""
+        n = len(self.stations)
+        return np.zeros((1, n), np.int64), -np.arange(n)[None] % n
+
+    @property
     def normals(self) -> np.ndarray:
         """Outward normals (n_st, 3) of the wall at the stations, in the pocket's frame."""
         return wall_normals(self.stations)
+
+
+def mirror_image(interface: BallCageInterface) -> BallCageInterface:
+    """The interface of the cage's mirror image in the plane x = 0, of the same stations; walls that
+    defects let end towards +x do so towards -x."""
+    across, polar = interface.across[1][0], np.array([-1.0, 1.0, 1.0])
+    offset = interface.offset
+    return replace(
+        interface,
+        modes=interface.modes[:, across] * polar[:, None],
+        local=interface.local[:, across],
+        centre=interface.centre * polar[:2],
+        land=interface.land * polar[:, None],
+        offset=None if offset is None else offset[:, across] * polar,
+    )
 
 
 WeightsOf = Callable[[FEModel, np.ndarray, PocketShapes, Any], sp.csr_matrix]

@@ -36,6 +36,7 @@ class CageFacts:
     mesh: MeshReport
     basis: ModeBasis | None
     table: str
+    count: int = 1  # so many such cages
     pinched: Sequence[int] = ()  # pockets
     pinch_force: float = 0.0  # N
 
@@ -49,12 +50,13 @@ class CageFacts:
     def mass(self) -> tuple[float, np.ndarray, str]:
         """Mass [kg] and its centre [m], with what unbalances it, and a remark on that."""
         mass, centre = self.mesh.volume * self.cage.material.density, self.mesh.mass_centre
+        each = "" if self.count == 1 else f"of each of {self.count}"
         if not self.cage.unbalance:
-            return mass, centre, ""
+            return mass, centre, each
         added, place = unbalance_of(self.cage)
         centre = (mass * centre + added * place) / (mass + added)
         note = f"{added * 1e3:.4g} g of them make the unbalance, at the cage's mean radius"
-        return mass + added, centre, note
+        return mass + added, centre, "; ".join(filter(None, (note, each)))
 
 
 def _warm(facts: CageFacts) -> Found | None:

@@ -112,7 +112,7 @@ def own_rows(part: SettledRun) -> tuple[SummaryRow, ...]:
 def _value_of(figure: Figure, part: SettledRun) -> Given:
     """What a user's function gives, as a value that a row may have."""
     try:
-        given = figure.take(part)
+        given = figure.take(part.each[0] if figure.needs == CAGED else part)
         found = given if isinstance(given, Found) else Found(given)
         if found.value is None:
             return found

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +13,7 @@ from flexcage.core.errors import InputError
 from flexcage.results import metrics
 from flexcage.results.audit import EnergyAudit, energy_audit
 from flexcage.results.contact_activity import ContactSeries, contact_series
+from flexcage.results.each_cage import cage_count, one_cage, own_events
 from flexcage.results.figures.figure import CAGED, FULL, Figure, FigureTable
 from flexcage.results.frequencies import SOUGHT, own_frequencies, run_frequencies
 from flexcage.results.registry import NEIGHBOURS
@@ -64,6 +65,17 @@ class SettledRun:
     settle: float = 0.3
     slip_range: SlipRange = SlipRange()
     events: xarray.Dataset | None = None
+
+    @cached_property
+    def each(self) -> tuple[SettledRun, ...]:
+        """The same of each cage, with the elements in it; itself where there is one, or none."""
+        count = cage_count(self.run)
+        if count == 1:
+            return (self,)
+        return tuple(
+            replace(self, run=one_cage(self.run, k), events=own_events(self.events, self.run, k))
+            for k in range(count)
+        )
 
     @cached_property
     def words(self) -> Mapping[str, str]:

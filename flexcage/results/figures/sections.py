@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from flexcage.results.figures.energy import ENERGY
-from flexcage.results.figures.figure import SETTLING, Figure, FigureTable, rows_of
+from flexcage.results.figures.figure import CAGED, SETTLING, Figure, FigureTable, rows_of
 from flexcage.results.figures.forces import CONTACTS, FORCES, NEXT
 from flexcage.results.figures.motion import MOTION
 from flexcage.results.figures.own import SECTION, own_rows
@@ -16,6 +16,7 @@ from flexcage.results.figures.speeds import SPEEDS, STATISTICS, Taken
 from flexcage.results.figures.table import FIGURES
 from flexcage.results.figures.vibration import FREQUENCIES, VIBRATION
 from flexcage.results.registry import NEIGHBOURS
+from flexcage.results.row import SummaryRow, with_others
 from flexcage.results.summary import Section, Summary
 
 
@@ -33,13 +34,31 @@ def summarise(part: SettledRun) -> Summary:
     return Summary((first, *sections))
 
 
+#: Sections whose figures of a cage are those of one, where each row has one.
+_OF_A_CAGE = (SPEEDS, MOTION, CONTACTS)
+
+
+def _of_each_cage(figures: Iterable[Figure], part: SettledRun) -> Iterator[SummaryRow]:
+    """Rows of figures of a run in which each row of elements has a cage: of that at -x, with the
+    values of the others in notes."""
+    for figure in figures:
+        of_cage = figure.needs == CAGED or figure.section == MOTION.section
+        parts = part.each if of_cage else (part,)
+        rows = [row for one in parts for row in rows_of([figure], one, part.lacks, part.words)]
+        if rows:
+            yield with_others(rows)
+
+
 def _sections(part: SettledRun) -> Iterator[Section]:
     own, facts = part.of_family, (part, part.lacks, part.words)
 
     def of(table: FigureTable[SettledRun]) -> Section:
         """A section, which the family's own figures close."""
         added = [figure for figure in own.figures.values() if figure.section == table.section]
-        return Section(table.section, (*table.rows(*facts), *rows_of(added, *facts)))
+        figures = (*table.figures.values(), *added)
+        if len(part.each) > 1 and table in _OF_A_CAGE:
+            return Section(table.section, tuple(_of_each_cage(figures, part)))
+        return Section(table.section, rows_of(figures, *facts))
 
     yield of(SPEEDS)
     yield of(FREQUENCIES)

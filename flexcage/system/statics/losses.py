@@ -12,7 +12,7 @@ displacements are left out of the speeds.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import inf
 from typing import Any, Protocol
@@ -98,6 +98,20 @@ def settled_speeds(
         f"{left:.1e} of its load stays unbalanced; is the friction of contacts.race too small to "
         "turn it against its rolling resistance and drag?"
     )
+
+
+def together(each: Sequence[Losses], loaded: Sequence[int]) -> Losses:
+    """Those of rows of elements of one bearing, with so many ``loaded`` elements each."""
+    places: dict[str, float] = {}
+    for own in each:
+        for place, loss in own.places.items():
+            places[place] = places.get(place, 0.0) + loss
+    orbit, spin = (
+        float(np.average([getattr(own, name) for own in each], weights=loaded))
+        for name in ("orbit", "spin")
+    )
+    sliding, rolling = (sum(getattr(o, name) for o in each) for name in ("sliding", "rolling"))
+    return Losses(places, sliding, rolling, sum(own.torque for own in each), orbit, spin)
 
 
 def summed(

@@ -103,7 +103,7 @@ class Rows:
 
     def check(self, loads: ElementLoads) -> None:
         for row, own in zip(self.rows, self._spans):
-            row.elements.check(_of_row(loads, own, row.sense))
+            row.elements.check(loads_of_row(loads, own, row.sense))
 
     def reference_life(self, v: np.ndarray, w: np.ndarray) -> float:
         """Of rows of which the first that fails ends the bearing's life."""
@@ -125,7 +125,7 @@ def _joined(each: Sequence[Response] | Sequence[ElementLoads], name: str) -> Any
     return np.concatenate([getattr(one, name) for one in each])
 
 
-def _of_row(loads: ElementLoads, own: slice, sense: float) -> ElementLoads:
+def loads_of_row(loads: ElementLoads, own: slice, sense: float) -> ElementLoads:
     """Loads of a row's elements as its own bearing has them."""
     found: dict[str, Any] = {name: getattr(loads, name)[own] for name in _lists(loads)}
     return ElementLoads(**{**found, "angle": sense * found["angle"]})
