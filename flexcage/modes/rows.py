@@ -13,7 +13,7 @@ import scipy.sparse as sp
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import FEModel
 from flexcage.geometry.defect import in_row
-from flexcage.mesh.rows import ROWS, RowFrame, rows_in
+from flexcage.mesh.rows import ENDS, ROWS, RowFrame, rows_in
 from flexcage.modes.basis import ModeBasis
 from flexcage.modes.pockets import ROW_AXES, frames_at
 
@@ -30,7 +30,10 @@ def row_models(model: FEModel) -> tuple[FEModel, ...]:
 
 
 def _row_model(model: FEModel, row: int, frame: RowFrame, rows: int) -> FEModel:
-    groups = dict(_own_groups(model, row, pockets_of(model) // rows))
+    groups: dict[str, np.ndarray] = dict.fromkeys(ENDS.values(), np.zeros((0, 3), int))
+    groups |= _own_groups(model, row, pockets_of(model) // rows)
+    outer = ENDS[float(np.sign(frame.place))]
+    groups[ENDS[float(np.sign(frame.place)) * frame.sign]] = model.groups[outer]
     info = {key: value for key, value in model.info.items() if key != ROWS}
     info[ROW_AXES] = tuple(map(tuple, frame.axes.tolist()))
     return replace(
@@ -49,7 +52,8 @@ def _own_groups(model: FEModel, row: int, count: int) -> Iterator[tuple[str, np.
     for name, triangles in model.groups.items():
         pocket, _, part = name.partition("_")
         if not pocket.startswith("pocket"):
-            yield name, triangles
+            if name not in ENDS.values():
+                yield name, triangles
         elif (number := int(pocket[6:])) // count == row:
             yield f"pocket{number - row * count}_{part}", triangles
 
