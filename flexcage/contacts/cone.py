@@ -179,13 +179,19 @@ def cone_wrench(m, pose, side, rw, pair, mode, sums):
     if mode == TANGENT:
         _cone_tangent(first, pose, side, rw.partner[m], sl, pair)
     if side.rolling[0] > 0.0:
-        # shear on the surface, a couple about the roller's axis, and the pressure that balances it
-        a, F = row(pose.axis, 0), rw.rolling[m]
-        add_wrench(pair.wrench, (0.0, 0.0, (side.hydro - 1.0) * F), times(side.middle, a))
-        for c in range(3):
-            pair.wrench[MOMENT + c] += side.sign * side.own * F * a[c]
-        if mode >= REPORT:
-            sums[ROLLED] -= F * (rw.speed[m] + rw.ring_speed[m])
+        add_rolling(m, pose, side, rw, pair, mode, sums)
+
+
+@part
+def add_rolling(m, pose, side, rw, pair, mode, sums):
+    """Rolling resistance of contact m: shear on the surface, a couple about the roller's axis, and
+    the pressure that balances it. ``side`` of cones or of barrels (``barrel.BarrelSide``)."""
+    a, F = row(pose.axis, 0), rw.rolling[m]
+    add_wrench(pair.wrench, (0.0, 0.0, (side.hydro - 1.0) * F), times(side.middle, a))
+    for c in range(3):
+        pair.wrench[MOMENT + c] += side.sign * side.own * F * a[c]
+    if mode >= REPORT:
+        sums[ROLLED] -= F * (rw.speed[m] + rw.ring_speed[m])
 
 
 @part(fastmath=VECTORISED)

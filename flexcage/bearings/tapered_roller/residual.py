@@ -71,7 +71,7 @@ def evaluate(t, y, yd, d, law, out, mode):
         return
     law[POCKETS](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
     if mode == TANGENT:
-        _along_axes(d)
+        along_axes(d)
     roller_rows(y, yd, d, out, mode)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
 
@@ -131,7 +131,7 @@ def _approach(i, race, ring, side, d):
 
 
 @outlined
-def _along_axes(d):
+def along_axes(d):
     """Turn what contacts have added to the tangent into the axes of the rollers' rotations, which
     are not those of the orbital frames."""
     tan, poses = fields(d.tangent), fields(d.scratch).poses
