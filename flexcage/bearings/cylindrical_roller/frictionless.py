@@ -54,8 +54,11 @@ class Frictionless:
         still = model._replace(
             bodies=model.bodies._replace(gravity=np.zeros(3), drag=np.zeros(2)),
             inner_ring=model.inner_ring._replace(damping=np.zeros((6, 6))),
-            inner=model.inner._replace(rolling=np.zeros(2)),
-            outer=model.outer._replace(rolling=np.zeros(2)),
+            **{
+                name: side._replace(rolling=np.zeros(2))
+                for name, side in model._asdict().items()
+                if hasattr(side, "rolling")
+            },
             land=model.land._replace(kind=land),
             pocket=with_offset(model.pocket, offset),
         )

@@ -1,7 +1,9 @@
 """The start of a spherical roller bearing's run: its static solution, with the barrels rolling.
 
 The static solution places ring and barrels without friction, centrifugal forces and gyroscopic
-moments included. Barrels keep their places towards an inner ring that tilts, with which they turn
+moments included. It is linear in displacements: so Newton's method then brings barrels and rings
+to equilibrium where they truly touch, still without friction, which holds barrels along the orbit
+and in skew. Barrels keep their places towards an inner ring that tilts, with which they turn
 about the sphere's centre: so they orbit, and turn about their axes, as in pure rolling about the
 tilted axis, and the cage with them.
 """
@@ -16,6 +18,7 @@ from scipy.spatial.transform import Rotation
 from flexcage.bearings.spherical_roller.bearing import SphericalRollerBearing
 from flexcage.bearings.spherical_roller.model import SphericalModel
 from flexcage.bearings.spherical_roller.statics import Barrels, meeting
+from flexcage.bearings.tapered_roller.start import balanced, said_of
 from flexcage.bearings.two_rows import rows_from
 from flexcage.contacts.laws import STIFFNESS
 from flexcage.system.begun import Advance, Start, StaticStart
@@ -43,9 +46,14 @@ def spherical_start(
     if layout.has_cage:
         q["quaternion"][:] = turn.as_quat(scalar_first=True)
         q["cage"][:] = solution.outer[:3]
-    yd = rolling_barrels(bearing, y, turn)
+
+    def rolling(y: np.ndarray) -> np.ndarray:
+        return rolling_barrels(bearing, y, turn)
+
+    y, residual = balanced(bearing, y, rolling, skews=False)
+    yd = rolling(y)
     station = np.zeros_like(bearing.data.work.report.station)
-    return Start(y, yd, (), 0.0, solution.unbalanced, station, solution.warnings)
+    return Start(y, yd, (), 0.0, residual, station, (*solution.warnings, *said_of(residual)))
 
 
 def settled_barrels(

@@ -17,6 +17,7 @@ import numpy as np
 from flexcage.bearings.cylindrical_roller.frictionless import (
     Frictionless,
     HeldMotions,
+    Roll,
     advance_y,
     equilibrate,
     stop_cage,
@@ -44,28 +45,33 @@ def tapered_start(
     assert isinstance(bearing.spec, TaperedRollerBearing)
     solution, spec = statics(), bearing.spec
     model, layout = bearing.data.model, bearing.layout
-    y, residual = balanced(bearing, spec, placed(bearing, spec, solution))
-    yd = rolling_cones(model, layout, spec, y)
+
+    def rolling(y: np.ndarray) -> np.ndarray:
+        return rolling_cones(model, layout, spec, y)
+
+    y, residual = balanced(bearing, placed(bearing, spec, solution), rolling, skews=True)
+    yd = rolling(y)
     if layout.modes:
         spin = float(layout.u(y)["omega"][0])
         layout.q(y)["modes"][:] = strained_by_rotation(model.cage, spin)
     station = np.zeros_like(bearing.data.work.report.station)
-    return Start(y, yd, (), 0.0, residual, station, (*solution.warnings, *_left(residual)))
+    return Start(y, yd, (), 0.0, residual, station, (*solution.warnings, *said_of(residual)))
 
 
 def balanced(
-    bearing: BearingSystem, spec: TaperedRollerBearing, y: np.ndarray
+    bearing: BearingSystem, y: np.ndarray, rolling: Roll, *, skews: bool
 ) -> tuple[np.ndarray, float]:
-    """y with rollers and rings in equilibrium, without friction, at the velocities of pure rolling;
-    what is left unbalanced, as a share of the load."""
+    """y with rollers and rings in equilibrium, without friction, at the velocities of pure
+    ``rolling``; what is left unbalanced, as a share of the load. Friction holds rollers along the
+    orbit and in spin, and unless it ``skews``, in skew."""
     model, layout = bearing.data.model, bearing.layout
     system, found = Frictionless(bearing, model.pocket.offset), y.copy()
     along = np.zeros((layout.elements, 6), bool)
-    along[:, 2:4] = True  # round the orbit, and in spin
+    along[:, 2 : 4 if skews else 5] = True
     held = HeldMotions(along, np.full(6, layout.has_cage))
 
     def roll(y: np.ndarray) -> np.ndarray:
-        return stop_cage(layout, y, rolling_cones(model, layout, spec, y))
+        return stop_cage(layout, y, rolling(y))
 
     residual = equilibrate(
         system, found, roll(found), held, roll, lambda y, step: advance_y(system, y, step)
@@ -73,7 +79,7 @@ def balanced(
     return found, residual
 
 
-def _left(residual: float) -> tuple[str, ...]:
+def said_of(residual: float) -> tuple[str, ...]:
     """A sentence on what is left unbalanced; none if it is little."""
     if residual < _BALANCED:
         return ()
