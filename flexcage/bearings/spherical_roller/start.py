@@ -22,11 +22,12 @@ from flexcage.bearings.tapered_roller.start import balanced, said_of
 from flexcage.bearings.two_rows import rows_from
 from flexcage.contacts.laws import STIFFNESS
 from flexcage.system.begun import Advance, Start, StaticStart
-from flexcage.system.layout import Layout
 from flexcage.system.problem import BearingSystem
 from flexcage.system.statics.equilibrium import Problem, nearest, settle
 from flexcage.system.statics.slices import rolling_of
 from flexcage.system.statics.solution import StaticSolution
+
+_SOON = 1e-6  # s, over which velocities are differenced
 
 
 def spherical_start(
@@ -103,22 +104,30 @@ def in_frames(place: np.ndarray, axis: np.ndarray, near: np.ndarray) -> np.ndarr
 
 def rolling_barrels(bearing: BearingSystem, y: np.ndarray, turn: Rotation) -> np.ndarray:
     """Set velocities in y: barrels that orbit about an axis that is turned, and turn about their
-    own, as in pure rolling; returns y' (accelerations zero)."""
+    own, as in pure rolling; returns y'."""
     layout, yd = bearing.layout, np.zeros_like(y)
-    q, u = layout.q(y), layout.u(y)
+    q, u, qd = layout.q(y)["elements"], layout.u(y), layout.q(yd)["elements"]
     speed = float(np.interp(0.0, *bearing.data.model.bodies.speed))
     rolling = rolling_of(bearing.spec, speed, None)
     orbit = rolling.cage_speed * turn.apply([1.0, 0.0, 0.0])
-    psi, own = q["elements"][:, 2], Rotation.from_euler("YZ", q["elements"][:, 3:5])
-    to_space = Rotation.from_euler("X", psi[:, None])
-    centre = np.stack([q["elements"][:, 0], q["elements"][:, 1], 0.0 * psi], axis=1)
-    around = to_space.apply(np.tile(orbit, (len(psi), 1)), inverse=True)
-    u["elements"][:, :3] = np.cross(around, centre)
-    u["elements"][:, 3:] = own.apply(around, inverse=True)
-    u["elements"][:, 3] += rolling.element_spin_in_cage
+    u["elements"][:] = _velocities(q, orbit, rolling.element_spin_in_cage)
     u["inner"][3] = speed
     if layout.has_cage:
         u["omega"][0] = rolling.cage_speed
-    rates = bearing.residual(0.0, y, yd)
-    yd[: layout.n_q] = -rates[: layout.n_q]
+    yd[: layout.n_q] = -bearing.residual(0.0, y, yd)[: layout.n_q]
+    later, before = (
+        _velocities(q + h * qd, orbit, rolling.element_spin_in_cage) for h in (_SOON, -_SOON)
+    )
+    layout.u(yd)["elements"][:] = (later - before) / (2.0 * _SOON)
     return yd
+
+
+def _velocities(q: np.ndarray, orbit: np.ndarray, spin: float) -> np.ndarray:
+    """Velocities (Z, 6) of rollers at q (Z, 6) that go round at ``orbit`` (3,) [rad/s], and turn
+    about their axes at a ``spin`` [rad/s] besides."""
+    around = Rotation.from_euler("X", q[:, 2, None]).apply(
+        np.tile(orbit, (len(q), 1)), inverse=True
+    )
+    centre = np.stack([q[:, 0], q[:, 1], np.zeros(len(q))], axis=1)
+    turning = Rotation.from_euler("YZ", q[:, 3:5]).apply(around, inverse=True)
+    return np.hstack([np.cross(around, centre), turning + [spin, 0.0, 0.0]])
