@@ -64,6 +64,10 @@ class Cage:
     altered: ClassVar[str] = "Defects"  # heads the list of its defects
     # do rivets of ``rivet_diameter`` between its pockets hold two halves together?
     riveted: ClassVar[bool] = False
+    # of the half of a common cage for two rows: is that of the row at -x the mirror image of the
+    # other, or the same in another place? And do its dimensions describe both at once?
+    mirrored: ClassVar[bool] = False
+    whole: ClassVar[bool] = False
 
     if TYPE_CHECKING:  # of those that are riveted, and what every type has as a field or says
 
