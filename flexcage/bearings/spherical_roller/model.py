@@ -10,12 +10,13 @@ import numpy as np
 from flexcage.bearings.cylindrical_roller.model import RollerRows, SpottedRollers
 from flexcage.bearings.cylindrical_roller.neighbours import roller_roller_data
 from flexcage.bearings.spherical_roller.bearing import SphericalRollerBearing
+from flexcage.bearings.spherical_roller.pocket_data import barrel_pocket_data, row_frames
 from flexcage.bearings.spherical_roller.statics import slice_places
 from flexcage.bodies.floating_frame import BodyData, no_body
 from flexcage.contacts import laws
 from flexcage.contacts.barrel import BarrelSide
 from flexcage.contacts.cone_cone import ConeConeContact
-from flexcage.contacts.cone_pocket import cone_pocket_work
+from flexcage.contacts.cone_pocket import FaceFrames, cone_pocket_work
 from flexcage.contacts.land import LandData, no_land
 from flexcage.contacts.pocket_wall import PocketData, no_pockets
 from flexcage.contacts.race import race_work
@@ -44,6 +45,8 @@ class SphericalModel(NamedTuple):
     spot: SpottedRollers
     land: LandData
     rows: RollerRows
+    frames: FaceFrames  # of the pockets at -x
+    frames_other: FaceFrames
 
 
 def _sphere(b: SphericalRollerBearing, contacts: Contacts, lubricant: Lubricant) -> BarrelSide:
@@ -90,6 +93,7 @@ def build_spherical_model(
     count, diameter = bearing.total_elements, bearing.roller_diameter
     inner, other = (_groove(bearing, contacts, lubricant, way) for way in (-1.0, 1.0))
     spheres = bearing.roller.spheres(slice_places(bearing, contacts.race.slices))
+    frames, frames_other = row_frames(bearing, cage)
     return SphericalModel(
         bodies=bodies_of(
             bearing, cage, lubricant, drive, load,
@@ -102,7 +106,10 @@ def build_spherical_model(
         inner=inner,
         inner_other=other,
         outer=_sphere(bearing, contacts, lubricant),
-        pocket=no_pockets(count, 0.5 * bearing.roller_length),
+        pocket=(
+            barrel_pocket_data(bearing, cage, contacts, interface) if cage
+            else no_pockets(count, 0.5 * bearing.roller_length)
+        ),
         neighbours=ConeConeContact(*roller_roller_data(bearing, contacts, *spheres)),
         spot=SpottedRollers(np.zeros(count, np.int64), 0.0),
         land=no_land(),
@@ -111,6 +118,8 @@ def build_spherical_model(
             np.repeat([row.place for row in bearing.row_places], bearing.roller_count),
             bearing.element_azimuths,
         ),
+        frames=frames,
+        frames_other=frames_other,
     )  # fmt: skip
 
 

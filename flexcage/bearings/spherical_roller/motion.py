@@ -11,6 +11,7 @@ from flexcage.bearings.spherical_roller.model import (
     spherical_work,
 )
 from flexcage.bearings.spherical_roller.neighbours import touch_in_rows
+from flexcage.bearings.spherical_roller.pockets import barrel_pockets
 from flexcage.bearings.spherical_roller.residual import evaluate
 from flexcage.bearings.spherical_roller.start import spherical_start
 from flexcage.modes.basis import FACES
@@ -25,7 +26,7 @@ MOTION = Motion(
     parts=SphericalParts,
     new_work=spherical_work,
     evaluate=evaluate,
-    separate=(touch_in_rows, shared_equations),
+    separate=(barrel_pockets, shared_equations),
     faces=FACES,
     uncaged=((touch_in_rows, shared_equations), ("next roller",)),
     ribs=(),

@@ -9,6 +9,7 @@ import numpy as np
 from flexcage.bearings.cylindrical_roller.recording import RECORDING as OF_ROLLERS
 from flexcage.bearings.cylindrical_roller.recording import on_races
 from flexcage.bearings.spherical_roller.model import SphericalModel
+from flexcage.bearings.tapered_roller.recording import in_cage, in_walls
 from flexcage.bearings.two_rows import row_labels
 from flexcage.contacts.barrel import BarrelSide
 from flexcage.integrate.recording import Recording
@@ -27,16 +28,33 @@ def overlaps(model: SphericalModel, layout: Layout, y: np.ndarray) -> np.ndarray
     q, each = layout.q(y), model.rows.each
     x, r, psi = np.moveaxis(q["elements"][..., :3], -1, 0)
     at = np.stack([x, r * np.cos(psi), r * np.sin(psi)], axis=-1)
-    following = np.arange(layout.elements) + 1
-    following[each - 1 :: each] -= each
-    away = np.linalg.norm(at[:, following] - at, axis=-1)
     in_inner, in_outer = (at - q[name][:, None, :3] for name in ("inner", "outer"))
     inner = [
         _in_race(side, in_inner[:, row])
         for side, row in ((model.inner, slice(each)), (model.inner_other, slice(each, None)))
     ]
     depths = [np.concatenate(inner, axis=1), _in_race(model.outer, in_outer)]
-    return np.stack([*depths, 2.0 * model.inner.own - away], axis=-1)
+    others = _in_pockets(model, q, at) if layout.has_cage else [_in_next(model, at)]
+    return np.stack([*depths, *others], axis=-1)
+
+
+def _in_next(model: SphericalModel, at: np.ndarray) -> np.ndarray:
+    """Depths (n, 2Z) of barrels at places (n, 2Z, 3) in the next ones of their row."""
+    each = model.rows.each
+    following = np.arange(at.shape[1]) + 1
+    following[each - 1 :: each] -= each
+    found: np.ndarray = np.linalg.norm(at[:, following] - at, axis=-1)
+    return 2.0 * model.inner.own - found
+
+
+def _in_pockets(
+    model: SphericalModel, q: dict[str, np.ndarray], at: np.ndarray
+) -> list[np.ndarray]:
+    """Depths (n, 2Z) in the four faces of their pockets."""
+    seen, each = in_cage(q, at), model.rows.each
+    one, other = (in_walls(model.pocket, f, seen) for f in (model.frames, model.frames_other))
+    pairs = zip(one, other)
+    return [np.concatenate([a[:, :each], b[:, each:]], axis=1) for a, b in pairs]
 
 
 def _in_race(side: BarrelSide, at: np.ndarray) -> np.ndarray:

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from flexcage.bearings.cylindrical_roller.model import SpottedRollers
+from flexcage.bearings.cylindrical_roller.neighbours import roller_roller_data
 from flexcage.bearings.tapered_roller.bearing import TaperedRollerBearing
 from flexcage.bearings.tapered_roller.pocket_data import cone_pocket_data, face_frames, no_frames
 from flexcage.bearings.tapered_roller.spheres import spheres
@@ -94,18 +95,6 @@ def _end(b: TaperedRollerBearing, contacts: Contacts) -> EndData:
     )
 
 
-def _neighbours(b: TaperedRollerBearing, contacts: Contacts) -> ConeConeContact:
-    """How rollers touch each other, by the laws of the races, as cylinders do."""
-    n = contacts.race.slices
-    s, reach = spheres(b, n)
-    two = laws.iso_line_stiffness(b.effective_length, b.rolling_material.plane_strain_modulus)
-    return ConeConeContact(
-        s=s, reach=reach,
-        normal=laws.normal_parameters(contacts.race.normal, two, LINE_EXPONENT, parts=n),
-        friction=laws.friction_parameters(contacts.race.friction),
-    )  # fmt: skip
-
-
 def build_tapered_model(
     bearing: TaperedRollerBearing, cage: ConicalCage | None, body: Any, interface: Any, *,
     contacts: Contacts, lubricant: Lubricant, drive: Drive, load: Load, mount: Mount, seed: int = 0,
@@ -129,7 +118,9 @@ def build_tapered_model(
             cone_pocket_data(bearing, cage, contacts, interface) if cage
             else no_pockets(count, 0.5 * bearing.roller_length)
         ),
-        neighbours=_neighbours(bearing, contacts),
+        neighbours=ConeConeContact(
+            *roller_roller_data(bearing, contacts, *spheres(bearing, contacts.race.slices))
+        ),
         spot=SpottedRollers(np.zeros(count, np.int64), 0.0),
         land=no_land(),
         frames=face_frames(bearing, cage) if cage else no_frames(),
