@@ -10,6 +10,7 @@ pockets' middles where the rollers' are, and its modes where rotation holds them
 
 from __future__ import annotations
 
+from copy import copy
 from math import cos, pi, sin
 
 import numpy as np
@@ -19,7 +20,9 @@ from flexcage.bearings.cylindrical_roller.frictionless import (
     HeldMotions,
     advance_y,
     equilibrate,
+    has_pits,
     stop_cage,
+    without_pits,
 )
 from flexcage.bearings.tapered_roller.bearing import TaperedRollerBearing
 from flexcage.bearings.tapered_roller.model import TaperedModel
@@ -44,13 +47,25 @@ def tapered_start(
     assert isinstance(bearing.spec, TaperedRollerBearing)
     solution, spec = statics(), bearing.spec
     model, layout = bearing.data.model, bearing.layout
-    y, residual = balanced(bearing, spec, placed(bearing, spec, solution))
+    y, residual = _balanced(bearing, spec, placed(bearing, spec, solution))
     yd = rolling_cones(model, layout, spec, y)
     if layout.modes:
         spin = float(layout.u(y)["omega"][0])
         layout.q(y)["modes"][:] = strained_by_rotation(model.cage, spin)
     station = np.zeros_like(bearing.data.work.report.station)
     return Start(y, yd, (), 0.0, residual, station, (*solution.warnings, *_left(residual)))
+
+
+def _balanced(
+    bearing: BearingSystem, spec: TaperedRollerBearing, y: np.ndarray
+) -> tuple[np.ndarray, float]:
+    """``balanced``, and where nothing is on spalls or on spots of rollers, on even ones."""
+    found, residual = balanced(bearing, spec, y)
+    if residual < _BALANCED or not has_pits(bearing.data.model):
+        return found, residual
+    even = copy(bearing)
+    even.data = bearing.data._replace(model=without_pits(bearing.data.model))
+    return balanced(even, spec, y)
 
 
 def balanced(
