@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from flexcage.contacts.cone import add_rolling, add_sphere_tangent, cone_line
+from flexcage.contacts.cone import add_rolling, cone_line
 from flexcage.contacts.evaluation import (
     DAMPED,
     MOMENT_PSI,
@@ -36,7 +36,17 @@ from flexcage.contacts.evaluation import (
 )
 from flexcage.contacts.laws import EXPONENT
 from flexcage.contacts.slices import friction_power, largest, stored_and_damped
-from flexcage.contacts.state import AXIS, CENTRE, MOMENT, SPIN, add_generator, add_outer, clear
+from flexcage.contacts.state import (
+    AXIS,
+    CENTRE,
+    MOMENT,
+    SPIN,
+    WHOLE,
+    add_generator,
+    add_outer,
+    clear,
+    friction_tangent,
+)
 from flexcage.core.jit import VECTORISED, outlined, part, zero
 from flexcage.core.vectors import combine, cross, dot, plus, row, times, xyz
 
@@ -188,19 +198,28 @@ def _report(first, side, pose, ring_axis, sl, sums):
 @outlined
 def _barrel_tangent(first, pose, side, partner, sl, pair):
     """The slices' share of the pair's tangent."""
-    a, ring_axis = row(pose.axis, 0), row(partner, AXIS)
-    line, _ = cone_line(pose, partner)
+    a, b, (line, _) = row(pose.axis, 0), row(partner, AXIS), cone_line(pose, partner)
+    Wn, Wl, Wt, Wf = pair.W[0], pair.W[1], pair.W[2], pair.W[WHOLE]
     for k in range(side.s.shape[0]):
-        at, s = first + np.uint64(k), side.s[k]
+        at = first + np.uint64(k)
         if sl.N[at] <= 0.0:
             continue
-        n, l, t = _directions(at, ring_axis, sl)
-        v = (sl.t1[at], sl.t2[at], sl.t3[at])
-        sl.t1[at], sl.t2[at] = dot(v, l), dot(v, t)
-        x = combine(line.x0, s, line.x1)
-        distance, far = sqrt(dot(x, x)), side.arc - side.reach[k] + sl.d[at]
+        n, l, t = _directions(at, b, sl)
+        x, on_axis = combine(line.x0, side.s[k], line.x1), times(side.s[k], a)
+        r, far = combine(on_axis, -side.reach[k], n), side.arc - side.reach[k] + sl.d[at]
         # normals turn towards the arc's centre along the profile, to the ring's axis round it
-        add_generator(l, times(s, a), pair.W[1])
-        add_outer(pair.K, sl.N[at] / far, pair.W[1], pair.W[1])
-        bend = (side.centre / distance - 1.0) / far
-        add_sphere_tangent(at, (s, side.reach[k], bend), a, (n, l, t), sl, pair)
+        add_generator(l, on_axis, Wl)
+        add_generator(t, on_axis, Wt)
+        add_outer(pair.K, sl.N[at] / far, Wl, Wl)
+        add_outer(pair.K, sl.N[at] * (1.0 - side.centre / sqrt(dot(x, x))) / far, Wt, Wt)
+        add_generator(n, r, Wn)
+        add_generator(l, r, Wl)
+        add_generator(t, r, Wt)
+        v, g = (sl.t1[at], sl.t2[at], sl.t3[at]), sl.g[at]
+        t1, t2 = dot(v, l), dot(v, t)
+        # generators (f, r x f): K = dN/dd Wf Wn^T, C = dN/dd' Wf Wn^T + friction's own
+        for j in range(6):
+            Wf[j] = Wn[j] - g * (t1 * Wl[j] + t2 * Wt[j])
+        add_outer(pair.K, sl.Nd[at], Wf, Wn)
+        add_outer(pair.C, sl.Nv[at], Wf, Wn)
+        friction_tangent(pair.C, sl.N[at], g, sl.dg[at], sl.u[at], t1, t2, Wl, Wt)

@@ -18,6 +18,7 @@ from flexcage.contacts.evaluation import REPORT, RESIDUAL, TANGENT
 from flexcage.contacts.land import DRY, NONE
 from flexcage.contacts.pocket_wall import with_offset
 from flexcage.contacts.state import U_SKEW, U_TILT
+from flexcage.contacts.uneven import is_uneven
 from flexcage.core.errors import RunFailed
 from flexcage.system.constraints import OFF, no_rows
 from flexcage.system.layout import Layout
@@ -94,6 +95,24 @@ class Frictionless:
         r = r.copy()
         newton_step(alpha, y, r, at, tangent, self.data.matrix)
         return r
+
+
+def has_pits(model: Any) -> bool:
+    """Have races spalls, or rollers spots?"""
+    spalls = model.inner.spall[0] > 0.0 or model.outer.spall[0] > 0.0
+    return bool(spalls or model.spot.has.any())
+
+
+def without_pits(model: Any) -> Any:
+    """The model with neither spalls of races nor spots of rollers."""
+    spot = model.spot._replace(has=0 * model.spot.has)
+    return model._replace(spot=spot, inner=_even(model.inner), outer=_even(model.outer))
+
+
+def _even(side: Any) -> Any:
+    """The race without its spall."""
+    spall = 0.0 * side.spall
+    return side._replace(spall=spall, uneven=is_uneven(side.wave, spall))
 
 
 def stop_cage(layout: Layout, y: np.ndarray, yd: np.ndarray) -> np.ndarray:

@@ -25,13 +25,13 @@ from flexcage.bearings.cylindrical_roller.frictionless import (
     axial_load,
     equilibrate,
     free_motions,
+    has_pits,
     load_of,
     stop_cage,
+    without_pits,
 )
 from flexcage.bearings.cylindrical_roller.model import RollerModel
-from flexcage.contacts.race import RaceSide
 from flexcage.contacts.state import U_SKEW, U_TILT
-from flexcage.contacts.uneven import is_uneven
 from flexcage.core.errors import InputError, RunFailed
 from flexcage.geometry.kinematics import epicyclic
 from flexcage.system.begun import Advance, Start, StaticStart
@@ -288,27 +288,14 @@ def roller_start(
     """Equilibrium at epicyclic speeds; the static solution is not asked for. Where none is found on
     spalls or on spots of rollers, the start is that of even ones."""
     model = bearing.data.model
-    spotted = bool(model.spot.has.any())
-    if spotted or model.inner.spall[0] > 0.0 or model.outer.spall[0] > 0.0:
-        allowed = _ON_SPOTS if spotted else _BALANCED
+    if has_pits(model):
+        allowed = _ON_SPOTS if model.spot.has.any() else _BALANCED
         try:
             return _start(bearing, limit_force, advance, allowed=allowed)
         except RunFailed:
             bearing = copy(bearing)
-            bearing.data = bearing.data._replace(model=_without_pits(model))
+            bearing.data = bearing.data._replace(model=without_pits(model))
     return _start(bearing, limit_force, advance, allowed=_BALANCED)
-
-
-def _without_pits(model: RollerModel) -> RollerModel:
-    """The model with neither spalls of races nor spots of rollers."""
-    spot = model.spot._replace(has=0 * model.spot.has)
-    return model._replace(spot=spot, inner=_even(model.inner), outer=_even(model.outer))
-
-
-def _even(side: RaceSide) -> RaceSide:
-    """The race without its spall."""
-    spall = 0.0 * side.spall
-    return side._replace(spall=spall, uneven=is_uneven(side.wave, spall))
 
 
 def _start(

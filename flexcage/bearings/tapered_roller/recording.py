@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from flexcage.bearings.cylindrical_roller.recording import RECORDING as OF_ROLLERS
-from flexcage.bearings.cylindrical_roller.recording import on_races
+from flexcage.bearings.cylindrical_roller.recording import on_races, spot_directions
 from flexcage.bearings.tapered_roller.model import TaperedModel
 from flexcage.contacts.cone import ConeSide
 from flexcage.contacts.cone_pocket import FaceFrames
@@ -22,6 +22,7 @@ def _variables(bearing: BearingSystem, y: np.ndarray) -> dict[str, np.ndarray]:
     return {
         **on_races(bearing, y),
         "rib_force": bearing.data.samples.rib[: len(y)],
+        **spot_directions(bearing.data.model, bearing.layout.q(y)["elements"]),
     }
 
 
@@ -83,5 +84,5 @@ def in_walls(pocket: PocketData, frames: FaceFrames, seen: np.ndarray) -> list[n
 
 _ROLLERS: Any = OF_ROLLERS
 RECORDING: Recording[Any] = Recording(
-    coords=_ROLLERS.coords, variables=_variables, overlaps=overlaps
+    coords=_ROLLERS.coords, variables=_variables, overlaps=overlaps, spots=_ROLLERS.spots
 )

@@ -10,6 +10,7 @@ pockets' middles where the rollers' are, and its modes where rotation holds them
 
 from __future__ import annotations
 
+from copy import copy
 from math import cos, pi, sin
 
 import numpy as np
@@ -20,7 +21,9 @@ from flexcage.bearings.cylindrical_roller.frictionless import (
     Roll,
     advance_y,
     equilibrate,
+    has_pits,
     stop_cage,
+    without_pits,
 )
 from flexcage.bearings.tapered_roller.bearing import TaperedRollerBearing
 from flexcage.bearings.tapered_roller.model import TaperedModel
@@ -49,13 +52,23 @@ def tapered_start(
     def rolling(y: np.ndarray) -> np.ndarray:
         return rolling_cones(model, layout, spec, y)
 
-    y, residual = balanced(bearing, placed(bearing, spec, solution), rolling, skews=True)
+    y, residual = _balanced(bearing, placed(bearing, spec, solution), rolling)
     yd = rolling(y)
     if layout.modes:
         spin = float(layout.u(y)["omega"][0])
         layout.q(y)["modes"][:] = strained_by_rotation(model.cage, spin)
     station = np.zeros_like(bearing.data.work.report.station)
     return Start(y, yd, (), 0.0, residual, station, (*solution.warnings, *said_of(residual)))
+
+
+def _balanced(bearing: BearingSystem, y: np.ndarray, rolling: Roll) -> tuple[np.ndarray, float]:
+    """``balanced``, and where nothing is on spalls or on spots of rollers, on even ones."""
+    found, residual = balanced(bearing, y, rolling, skews=True)
+    if residual < _BALANCED or not has_pits(bearing.data.model):
+        return found, residual
+    even = copy(bearing)
+    even.data = bearing.data._replace(model=without_pits(bearing.data.model))
+    return balanced(even, y, rolling, skews=True)
 
 
 def balanced(
