@@ -53,7 +53,8 @@ class Family:
     rings: Callable[[], SectionsOf] | None = None  # sections of rings that bend
     bending: Callable[[], BendingMotion] | None = None  # motion between rings that bend
     losses: Callable[[], LossesOf] | None = None  # of static solutions
-    built_on: str = ""  # name of the family whose elements it has, and which it may import
+    # name of the family whose elements it has, and which it may import, with what that is built on
+    built_on: str = ""
     other_designs: Mapping[str, str] = field(default_factory=dict)
     catalogue: str = ""  # package of its own tables, beside those of ``case.catalogues``
 

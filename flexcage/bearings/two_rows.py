@@ -13,11 +13,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from flexcage.cages.halves import is_one_piece
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import mm
 from flexcage.geometry.bearing import Bearing, RowPlace
 from flexcage.geometry.cage import Cage
-from flexcage.geometry.checks import Finding, raise_first
+from flexcage.geometry.checks import Finding, check_cage_defects, raise_first
 
 if TYPE_CHECKING:
     from flexcage.contacts.spec import Contacts
@@ -156,7 +157,8 @@ def check_cage(bearing: Bearing, cage: Cage | None, defects: Sequence[Any]) -> N
     """Raise InputError for the first impossibility in one cage for both rows, or in one for
     each."""
     if cage is not None:
-        raise_first(_find_in_cage(bearing, cage, defects))
+        raise_first(_find_in_cage(bearing, cage))
+        check_cage_defects(bearing, cage, defects)
 
 
 def check_rows(bearing: Any) -> None:
@@ -183,22 +185,17 @@ def _find_in_rows(b: Any) -> Iterator[Finding]:
         )
 
 
-def _find_in_cage(b: Any, cage: Cage, defects: Sequence[Any]) -> Iterator[Finding]:
+def _find_in_cage(b: Any, cage: Cage) -> Iterator[Finding]:
     """``cage`` is that of one row: a common one is both, held together."""
-    common = cage.count_in(b) == 1
-    if defects and common:
-        yield (
-            "defects",
-            f"A defect, or uneven spacing of pockets, of a cage for two rows of {b.element}s is "
-            'not computed; leave it out, or give each row a cage (rows = "each" in [cage]).',
-        )
     if b.element == "ball" and cage.guidance != "ball":
         yield (
             "cage.guidance",
             f"cage.guidance is '{cage.guidance}', but cages for two rows of balls are guided by "
             'these; give "ball".',
         )
-    if cage.axial_width - cage.axial_reach > 0.5 * b.row_distance:
+    held = b.rows_held_by(cage)
+    common, one = len(held) > 1, is_one_piece(cage, held)
+    if not one and cage.axial_width - cage.axial_reach > 0.5 * b.row_distance:
         yield (
             "cage.width",
             f"cage.width is {mm(cage.width)}, so the "

@@ -151,12 +151,18 @@ class PocketSections:
         return 0 if self.cage is None else self.cage.count_in(self.bearing)
 
     @property
+    def has_common_cage(self) -> bool:
+        """Does one cage hold the elements of several rows?"""
+        return 0 < self.cages < self.bearing.row_count
+
+    @property
     def all_defects(self) -> tuple[CageDefect, ...]:
         """Defects that the case names, and those that make its pockets' spacing uneven; none
         without a cage."""
         if self.cage is None:
             return ()
-        uneven = defect_spec(self.cage).by_chance(self.cage, self.bearing.element_count, self.seed)
+        count = self.bearing.total_elements // self.cages
+        uneven = defect_spec(self.cage).by_chance(self.cage, count, self.seed)
         return (*self.defects, *uneven)
 
 
@@ -175,6 +181,7 @@ class MeshSections(PocketSections):
             "pitch_diameter": self.bearing.pitch_diameter,
             "defects": self.all_defects,
             "options": self.mesh,
+            "places": self.bearing.rows_held_by(self.its_cage),
         }
 
 

@@ -8,7 +8,8 @@ the ring's axis b, with its apex at ``apex`` along that, is
 
 with the sine and cosine of the race's half angle. Its gradient n is the direction of the slice's
 force, which acts on the roller's axis: so forces are the slopes of one energy, tilt and skew
-included. The roller's end is one sphere more, and the rib one cone more (``cone_end``).
+included. The roller's end is one sphere more, and the rib one cone more (``cone_end``). Waves and
+spalls (``uneven_cone``) and spots of rollers (``roller_spot``) add to depths.
 """
 
 from __future__ import annotations
@@ -32,6 +33,7 @@ from flexcage.contacts.evaluation import (
     TRACTION,
 )
 from flexcage.contacts.laws import EXPONENT
+from flexcage.contacts.roller_spot import add_spot_depth, add_spot_wrench, spot_generator
 from flexcage.contacts.slices import (
     friction_power,
     largest,
@@ -50,6 +52,7 @@ from flexcage.contacts.state import (
     clear,
     friction_tangent,
 )
+from flexcage.contacts.uneven_cone import add_slope_forces, add_unevenness, round_the_ring
 from flexcage.core.jit import VECTORISED, outlined, part, zero
 from flexcage.core.vectors import combine, cross, dot, minus, plus, row, times, xyz
 
@@ -73,6 +76,12 @@ class ConeSide(NamedTuple):
     friction: np.ndarray  # (N_FRICTION,)
     rolling: np.ndarray  # (2,) rolling resistance
     hydro: float  # pressure share of that: twice the race's radius over the pitch circle's
+    wave: np.ndarray  # (3,) and
+    spall: np.ndarray  # (5,) as in ``contacts.uneven``, at right angles to the race
+    spalled: np.ndarray  # (ns,) share of each slice that lies over the spall
+    uneven: int  # 1 if there is a wave or a spall (records hold no booleans)
+    spot: np.ndarray  # (5,) of the roller that has one, as a spall's on it
+    spotted: np.ndarray  # (ns,) share of each slice that lies on the spot
 
 
 class ConeLine(NamedTuple):
@@ -101,9 +110,10 @@ def cone_line(pose, partner):
 
 
 @part
-def cone_penetrations(m, pose, side, onset, rw):
+def cone_penetrations(m, pose, side, theta, onset, rw):
     """Whether a roller touches a conical race: geometry and motion of contact m of the lot ``rw``
-    (``race.RaceWork``), of which ``partner[m]`` is given; ``onset``: speed at which it closed."""
+    (``race.RaceWork``), of which ``partner[m]`` is given. ``theta``: the ring's spin angle;
+    ``onset``: speed at which it closed."""
     sl, partner = rw.lot[0], rw.partner[m]
     ring_axis, n = row(partner, AXIS), side.s.shape[0]
     line, spin = cone_line(pose, partner)
@@ -111,6 +121,10 @@ def cone_penetrations(m, pose, side, onset, rw):
         return False
     first = np.uint64(m * n)
     _cone_penetrations(first, side, onset, ring_axis, line, spin, sl)
+    if side.uneven:
+        add_unevenness(first, pose, side, line, ring_axis, theta, sl)
+    if pose.spot[0] > 0.0:
+        add_spot_depth(first, pose, side, line, ring_axis, spin, sl)
     if largest((first, first + np.uint64(n)), sl.d) <= 0.0:
         return False
     # the surfaces' speeds along e_psi, seen from the contact, which moves with the orbit
@@ -131,6 +145,7 @@ def _out_of_reach(side, line):
     gap = side.sign * (distance * side.cos + (line.l0 - side.apex) * side.sin) - side.whole
     slope = side.sign * (along * side.cos + line.l1 * side.sin) + side.taper
     most = max(abs(side.s[0]), abs(side.s[side.s.shape[0] - 1]))
+    gap -= side.wave[0]
     return gap > most * (abs(slope) + most * (dot(x1, x1) - along * along) / distance)
 
 
@@ -159,7 +174,7 @@ def _cone_penetrations(first, side, onset, ring_axis, line, spin, sl):
 
 
 @part
-def cone_wrench(m, pose, side, rw, pair, mode, sums):
+def cone_wrench(m, pose, side, theta, rw, pair, mode, sums):
     """Wrench on the roller of contact m, whose forces are known (``race.race_forces``).
 
     From REPORT on with ``sums``: as ``race.race_wrench``; the moments of normal forces are those
@@ -176,16 +191,27 @@ def cone_wrench(m, pose, side, rw, pair, mode, sums):
         sums[STORED], sums[DAMPED] = stored_and_damped(span, sl, side.normal[EXPONENT])
         if mode == REPORT:
             _report(first, side, pose, sl, sums)
+    if side.uneven:
+        line, _ = cone_line(pose, rw.partner[m])
+        add_slope_forces(first, pose, side, line, ring_axis, theta, sl, pair, mode, sums)
+    if pose.spot[0] > 0.0:
+        add_spot_wrench(first, pose, side, rw.partner[m], sl, pair, mode, sums)
     if mode == TANGENT:
-        _cone_tangent(first, pose, side, rw.partner[m], sl, pair)
+        _cone_tangent(first, pose, side, rw.partner[m], theta, sl, pair)
     if side.rolling[0] > 0.0:
-        # shear on the surface, a couple about the roller's axis, and the pressure that balances it
-        a, F = row(pose.axis, 0), rw.rolling[m]
-        add_wrench(pair.wrench, (0.0, 0.0, (side.hydro - 1.0) * F), times(side.middle, a))
-        for c in range(3):
-            pair.wrench[MOMENT + c] += side.sign * side.own * F * a[c]
-        if mode >= REPORT:
-            sums[ROLLED] -= F * (rw.speed[m] + rw.ring_speed[m])
+        add_rolling(m, pose, side, rw, pair, mode, sums)
+
+
+@part
+def add_rolling(m, pose, side, rw, pair, mode, sums):
+    """Rolling resistance of contact m: shear on the surface, a couple about the roller's axis, and
+    the pressure that balances it. ``side`` of cones or of barrels (``barrel.BarrelSide``)."""
+    a, F = row(pose.axis, 0), rw.rolling[m]
+    add_wrench(pair.wrench, (0.0, 0.0, (side.hydro - 1.0) * F), times(side.middle, a))
+    for c in range(3):
+        pair.wrench[MOMENT + c] += side.sign * side.own * F * a[c]
+    if mode >= REPORT:
+        sums[ROLLED] -= F * (rw.speed[m] + rw.ring_speed[m])
 
 
 @part(fastmath=VECTORISED)
@@ -224,42 +250,35 @@ def _report(first, side, pose, sl, sums):
 
 
 @outlined
-def _cone_tangent(first, pose, side, partner, sl, pair):
+def _cone_tangent(first, pose, side, partner, theta, sl, pair):
     """The slices' share of the pair's tangent."""
-    a, ring_axis = row(pose.axis, 0), row(partner, AXIS)
-    line, _ = cone_line(pose, partner)
+    a, b, (line, _) = row(pose.axis, 0), row(partner, AXIS), cone_line(pose, partner)
+    Wn, Wl, Wt, Wf = pair.W[0], pair.W[1], pair.W[2], pair.W[WHOLE]
     for k in range(side.s.shape[0]):
         at = first + np.uint64(k)
         if sl.N[at] <= 0.0:
             continue
         n = (sl.n1[at], sl.n2[at], sl.n3[at])
-        t = times(side.sign / side.cos, cross(ring_axis, n))
-        l = times(1.0 / side.cos, combine(ring_axis, -side.sign * side.sin, n))
-        x = combine(line.x0, side.s[k], line.x1)
-        bend = side.sign * side.cos / sqrt(dot(x, x))
-        add_sphere_tangent(at, (side.s[k], side.reach[k], bend), a, (n, l, t), sl, pair)
-
-
-@part
-def add_sphere_tangent(at, sphere, a, directions, sl, pair):
-    """Slopes of contact ``at`` of a ``sphere``: its place s on the roller's axis a, its radius, and
-    how its normal turns over its way round the ring; ``directions``: of its normal force and of its
-    sliding sl.t1, sl.t2."""
-    n, l, t = directions
-    s, reach, bend = sphere
-    Wn, Wl, Wt, Wf = pair.W[0], pair.W[1], pair.W[2], pair.W[WHOLE]
-    r = combine(times(s, a), -reach, n)
-    add_generator(t, times(s, a), Wt)
-    add_outer(pair.K, -sl.N[at] * bend, Wt, Wt)
-    add_generator(n, r, Wn)
-    add_generator(l, r, Wl)
-    add_generator(t, r, Wt)
-    g1, g2 = sl.g[at] * sl.t1[at], sl.g[at] * sl.t2[at]
-    # generators (f, r x f): K = dN/dd Wf Wn^T, C = dN/dd' Wf Wn^T + friction's own
-    for j in range(6):
-        Wf[j] = Wn[j] - g1 * Wl[j] - g2 * Wt[j]
-    add_outer(pair.K, sl.Nd[at], Wf, Wn)
-    add_outer(pair.C, sl.Nv[at], Wf, Wn)
-    friction_tangent(
-        pair.C, sl.N[at], sl.g[at], sl.dg[at], sl.u[at], sl.t1[at], sl.t2[at], Wl, Wt
-    )  # fmt: skip
+        t = times(side.sign / side.cos, cross(b, n))
+        l = times(1.0 / side.cos, combine(b, -side.sign * side.sin, n))
+        x, on_axis = combine(line.x0, side.s[k], line.x1), times(side.s[k], a)
+        r = combine(on_axis, -side.reach[k], n)
+        # how the normal turns as the slice goes round the ring
+        add_generator(t, on_axis, Wt)
+        add_outer(pair.K, -sl.N[at] * side.sign * side.cos / sqrt(dot(x, x)), Wt, Wt)
+        add_generator(n, r, Wn)
+        if side.uneven:
+            round_the_ring(k, pose, side, line, b, theta, Wn)
+        if pose.spot[0] > 0.0 and side.spotted[k] > 0.0:
+            spot_generator(k, n, pose, side, partner, Wn)
+        add_generator(l, r, Wl)
+        add_generator(t, r, Wt)
+        g1, g2 = sl.g[at] * sl.t1[at], sl.g[at] * sl.t2[at]
+        # generators (f, r x f): K = dN/dd Wf Wn^T, C = dN/dd' Wf Wn^T + friction's own
+        for j in range(6):
+            Wf[j] = Wn[j] - g1 * Wl[j] - g2 * Wt[j]
+        add_outer(pair.K, sl.Nd[at], Wf, Wn)
+        add_outer(pair.C, sl.Nv[at], Wf, Wn)
+        friction_tangent(
+            pair.C, sl.N[at], sl.g[at], sl.dg[at], sl.u[at], sl.t1[at], sl.t2[at], Wl, Wt
+        )  # fmt: skip

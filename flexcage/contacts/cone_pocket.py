@@ -26,7 +26,8 @@ class FaceFrames(NamedTuple):
     """How the faces of a conical cage's pockets lie, in (x, r, psi) at a pocket's azimuth."""
 
     axes: np.ndarray  # (4, 3, 3) rows of each: along it, up the wall, across; side beams' as G has
-    origin: float  # radius of the point in the plane x = 0 from which faces are measured
+    origin: float  # radius of the point in the plane of the row from which faces are measured
+    whole: float  # radius of the roller's sphere at its centre of mass
     taper: float  # sine of the roller's half angle
 
 
@@ -63,11 +64,11 @@ def set_face(frames, f, pw):
 
 
 @part
-def _penetrations(pose, data, frames, i, whole, centre, q, margin, pw):
-    """As ``pocket_wall.penetrations``, of a roller whose sphere at its ``centre`` of mass has a
-    radius ``whole``."""
+def _penetrations(pose, data, frames, i, centre, q, margin, pw):
+    """As ``pocket_wall.penetrations``, of a roller whose ``centre`` of mass is there."""
     a0, a1, a2 = row(pose.axis, 0), row(pose.axis, 1), row(pose.axis, 2)
-    D = combine(centre, -frames.origin, row(pw.P, 1))
+    whole, D = frames.whole, combine(centre, -data.place[i], row(pw.P, 0))
+    D = combine(D, -frames.origin, row(pw.P, 1))
     reach = max(abs(data.s[0]), abs(data.s[data.s.shape[0] - 1]))
     touch = False
     for f in range(FACES):
@@ -102,7 +103,7 @@ def cone_pocket_contact(i, roller, cage, pockets, laws, sl, pw, pair, mode, sums
     zero(pw.push)
     searching = True
     while searching:
-        if not _penetrations(pose, data, frames, i, whole, centre, q, margin, pw):
+        if not _penetrations(pose, data, frames, i, centre, q, margin, pw):
             return False
         searching = False
         if data.soft != 0:

@@ -33,7 +33,7 @@ class SpotTurn(NamedTuple):
 @part
 def spot_turn(pose, side, n, b, distance):
     """``SpotTurn`` of a slice with normal ``n`` on the roller, whose axis is at a ``distance`` from
-    the ring's axis ``b``; both relative to the ring."""
+    the ring's axis ``b``; both relative to the ring, a cylinder or a cone."""
     a = row(pose.axis, 0)
     along = -dot(n, a)
     across = combine(times(-1.0, n), -along, a)  # towards the contact
@@ -41,7 +41,8 @@ def spot_turn(pose, side, n, b, distance):
     angle = np.arctan2(dot(across, row(pose.axis, 2)), dot(across, row(pose.axis, 1)))
     sunk, slope = spall_depth(side.spot, angle - pose.spot[1])
     t = cross(b, n)
-    push = -side.sign * dot(t, cross(a, across)) / (distance * size * size)
+    lean = sqrt(dot(t, t))  # cosine of a cone's half angle; 1 of a cylinder
+    push = -side.sign * dot(t, cross(a, across)) / (lean * distance * size * size)
     turn = combine(times(-1.0, a), along / (size * size), across)
     return SpotTurn(sunk, slope, times(push, t), turn)
 

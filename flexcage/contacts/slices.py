@@ -28,8 +28,9 @@ _NAMES = (
     "g",  # mu/u
     "dg",  # d(mu/u)/du
     "still",  # zeros: rates and onset speeds for elastic forces
-    "t1",  # components of the sliding velocity
+    "t1",  # components of the sliding velocity, two or all three
     "t2",
+    "t3",
     "n1",  # components of the normal on the roller, in F
     "n2",
     "n3",

@@ -154,14 +154,15 @@ def add_end_generator(n, r, axis, distance, out):
 
     An end looks the same however far it has spun, but its points, which keep their place towards
     the bearing's axis (at ``distance``), would give a force askew to the end a moment about the
-    roller's axis. That moment m is taken out, and the force m/distance along the orbit that
-    balances it on the partner is put in: the gradient of an energy that knows orbit, not spin.
+    roller's axis. That moment m is taken out, and the force along the orbit that does as much when
+    the roller goes round as m does on the axis is put in: the gradient of an energy that knows
+    orbit, not spin.
     """
     add_generator(n, r, out)
     m = axis[0] * out[MOMENT] + axis[1] * out[MOMENT + 1] + axis[2] * out[MOMENT + 2]
     for j in range(3):
         out[MOMENT + j] -= m * axis[j]
-    out[2] += m / distance
+    out[2] += m * axis[0] / distance
 
 
 @part

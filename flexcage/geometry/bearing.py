@@ -182,11 +182,22 @@ class Bearing:
         """Where its rows stand."""
         return (RowPlace(),)
 
+    def rows_held_by(self, cage: Cage) -> tuple[RowPlace, ...]:
+        """Where the rows stand, from its middle, whose elements one such cage holds."""
+        return (RowPlace(),) if cage.count_in(self) > 1 else self.row_places
+
     @property
     def element_azimuths(self) -> np.ndarray:
         """Azimuths (n,) [rad] of all elements, those of a row evenly spaced."""
+        return self._azimuths(self.row_places)
+
+    def pocket_azimuths(self, cage: Cage) -> np.ndarray:
+        """Azimuths (n,) [rad] of the pockets of one such cage, in its frame."""
+        return self._azimuths(self.rows_held_by(cage))
+
+    def _azimuths(self, rows: tuple[RowPlace, ...]) -> np.ndarray:
         even = 2.0 * np.pi * np.arange(self.element_count) / self.element_count
-        return np.concatenate([even + row.turned for row in self.row_places])
+        return np.concatenate([even + row.turned for row in rows])
 
     @property
     def element_diameter(self) -> float:

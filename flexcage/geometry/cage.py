@@ -66,6 +66,9 @@ class Cage:
     altered: ClassVar[str] = "Defects"  # heads the list of its defects
     # do rivets of ``rivet_diameter`` between its pockets hold two halves together?
     riveted: ClassVar[bool] = False
+    # is one half of a common cage for two rows the mirror image of the other, or just elsewhere?
+    mirrored: ClassVar[bool] = False
+    for_rows: ClassVar[tuple[str, ...]] = (COMMON, EACH)  # of a bearing with two: what it may be
 
     if TYPE_CHECKING:  # of those that are riveted, and what every type has as a field or says
 
@@ -86,7 +89,7 @@ class Cage:
     )  # fmt: skip
     guidance: str = option("", doc="what guides the cage radially")
     rows: str = option(
-        COMMON, choices=(COMMON, EACH),
+        COMMON, choices=for_rows,
         doc="of a bearing with two rows: one cage for both, of which these are the dimensions of "
         "one row's half, or a cage for each row, the second the mirror image of the first",
     )  # fmt: skip
@@ -175,6 +178,12 @@ class Cage:
         wall = pi / 4.0 * (self.outside_diameter**2 - self.bore**2)
         return 0.5 * self.material.density * wall * self.axial_width * self.mean_radius
 
+    @property
+    def inner_reach(self) -> float | None:
+        """How far one row's half of a common cage reaches [m] from the plane of the elements'
+        centres to its end at -x, in which both halves may hold together; None where not."""
+        return None
+
     def thinnest(self, pitch_diameter: float, pocket_count: int) -> float:
         """Least thickness [m] of wall and webs, for which elements must not be too large."""
         raise NotImplementedError
@@ -215,6 +224,10 @@ class CylindricalCage(Cage):
     bore: float = quantity("mm", doc="inside diameter", above=0.0)
     outside_diameter: float = quantity("mm", doc="outside diameter", above=0.0)
     width: float = quantity("mm", doc="axial width", above=0.0)
+
+    @property
+    def inner_reach(self) -> float | None:
+        return 0.5 * self.width
 
     def impossible(self, pocket_count: int) -> Iterator[Objection]:
         if self.outside_diameter <= self.bore:

@@ -8,6 +8,8 @@ from typing import ClassVar, Protocol
 import numpy as np
 import scipy.sparse as sp
 
+from flexcage.mesh.rows import RowFrame
+
 FACES = ("front", "rear", "side+x", "side-x")  # face numbers 0..3 of a pocket, everywhere
 
 
@@ -125,6 +127,9 @@ class CageInterface:
 
     single: ClassVar[tuple[tuple[int, ...], ...]] = ((2,), (2,), (0,), (0,))  # the faces' normals
     even: ClassVar[tuple[tuple[int, ...], ...]] = ((0, 1), (0, 1), (1, 2), (1, 2))  # tangents
+    per_pocket: ClassVar[tuple[str, ...]] = (
+        "offset", "modes", "residual", "compliance", "weights"
+    )  # fmt: skip
 
     stations: np.ndarray  # (4, n_st) station coordinates [m]
     offset: np.ndarray  # (Z, 4, n_o) [m]
@@ -137,6 +142,11 @@ class CageInterface:
     weights: sp.csr_matrix | None = None  # (Z*4*n_st, n_nodes): station <- nodal displacement
     land_weights: sp.csr_matrix | None = None  # (2*n_land, n_nodes), the same for land stations
 
+    def in_row(self, frame: RowFrame) -> CageInterface:
+        """That of a row's pockets with components along the cage's x; what counts along a pocket,
+        and the sides of a pocket, stay in the row's frame."""
+        return replace(self, modes=self.modes * np.array([frame.sign, 1.0, 1.0])[:, None])
+
     @property
     def across(self) -> tuple[np.ndarray, np.ndarray]:
         """Faces at +x and -x change places, and so do stations along crossbeams, which lie evenly
@@ -147,14 +157,13 @@ class CageInterface:
 
 
 def mirror_image(interface: CageInterface) -> CageInterface:
-    """The interface of the cage's mirror image in the plane x = 0."""
+    """The interface of the cage's mirror image in the plane x = 0; what counts along a pocket, and
+    its sides, by the image's own x."""
     faces, stations = interface.across
-    polar = np.array([-1.0, 1.0, 1.0])
-    offset = interface.offset
+    turned, offset = interface.in_row(RowFrame(sign=-1.0)), interface.offset
     return replace(
-        interface,
+        turned,
         offset=np.concatenate([offset[:, :2, ::-1], offset[:, [3, 2]]], axis=1),
-        modes=interface.modes[:, faces, stations] * polar[:, None],
+        modes=turned.modes[:, faces, stations],
         residual=interface.residual[:, faces, stations],
-        land=interface.land * polar[:, None],
     )

@@ -7,6 +7,8 @@ the momentum rows become (alpha M + C + K/alpha) du = -r_u + K r_s/alpha, so tha
 
 from __future__ import annotations
 
+from math import cos, sin
+
 from flexcage.contacts.evaluation import ACCEPT, RESIDUAL, TANGENT
 from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT, U_SKEW, U_SPIN, U_TILT
 from flexcage.core.jit import VECTORISED, array_from, fields, kernel, part, zero
@@ -153,6 +155,9 @@ def newton_step(alpha, y, r, at, tan, m):
         s[i, 0], s[i, 1], s[i, 2] = r[o], r[o + 1], r[o + 2] * y[o + 1]
         for c in range(3):
             s[i, TURN + c] = r[o + tan.turns[c]]
+        if tan.turns[1] == Q_SKEW:  # a roller, whose axis may lean far
+            upright, lean = cos(y[o + Q_TILT]), sin(y[o + Q_TILT])
+            s[i, U_SKEW] = upright * r[o + Q_SKEW] - lean * r[o + 2]
     _ring_displacement(array_from(r, at.inner_q), at.inner_modes, array_from(sb, at.inner_b))
     _ring_displacement(array_from(r, at.outer_q), at.outer_modes, array_from(sb, at.outer_b))
     for k in range(at.cages):
@@ -186,6 +191,9 @@ def newton_step(alpha, y, r, at, tan, m):
         r[o], r[o + 1], r[o + 2] = s[i, 0], s[i, 1], s[i, 2] / y[o + 1]
         for c in range(3):
             r[o + tan.turns[c]] = s[i, TURN + c]
+        if tan.turns[1] == Q_SKEW:
+            upright, lean = cos(y[o + Q_TILT]), sin(y[o + Q_TILT])
+            r[o + Q_SKEW] = (s[i, U_SKEW] + lean * r[o + 2]) / upright
     for k in range(n):
         r[at.bodies_u + k] = xb[k]
         sb[k] = b * (xb[k] - sb[k])

@@ -11,7 +11,7 @@ from flexcage.core.errors import InputError
 from flexcage.geometry.fits.changed import Changed
 from flexcage.render import section_picture
 from flexcage.render.shapes import shapes_of
-from flexcage.spec import DoubleRowRollerBearing, SphericalRollerBearing, WindowCage
+from flexcage.spec import DoubleRowRollerBearing, SphericalRollerBearing
 
 # T. A. Harris, Rolling Bearing Analysis, examples of a 22317, from memory: contours of barrels and
 # races, and the radius of the sphere, 81.585 mm, of a bearing with about 0.1 mm of clearance
@@ -113,11 +113,6 @@ def test_as_many_barrels_fit_as_the_sentence_says():
     full.check()
     share = full.roller_diameter / (full.pitch_diameter * sin(pi / 17))
     assert 0.9 < share < 1.0
-
-
-def test_a_cage_of_barrels_is_refused():
-    with pytest.raises(InputError, match="flexcage has no cage of barrels"):
-        BEARING.check(cage=WindowCage.__new__(WindowCage))
 
 
 def test_fits_move_races_and_leave_the_clearance():

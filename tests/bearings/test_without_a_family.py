@@ -57,8 +57,7 @@ def without(request, tmp_path_factory):
     copy = tmp_path_factory.mktemp("copy")
     own = shutil.ignore_patterns("__pycache__")
     shutil.copytree(ROOT / "flexcage", copy / "flexcage", ignore=own)
-    built_on_it = [family.name for family in WING.values() if family.built_on == request.param]
-    for name in (request.param, *built_on_it):
+    for name in (request.param, *built_on(request.param)):
         shutil.rmtree(copy / "flexcage/bearings" / name)
         _edit(copy / "flexcage/bearings/specs.py", rf"from flexcage\.bearings\.{name} .*\n")
     left = FAMILIES[request.param]
@@ -73,6 +72,14 @@ def without(request, tmp_path_factory):
 
     run.copy, run.left = copy, left
     return run
+
+
+def built_on(name):
+    """Names of the families that are built on one, or on those."""
+    for family in WING.values():
+        if family.built_on == name:
+            yield family.name
+            yield from built_on(family.name)
 
 
 def _edit(path, pattern):

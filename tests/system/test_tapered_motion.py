@@ -15,6 +15,7 @@ from tapered_parts import (
     FRICTIONLESS,
     LIGHT,
     begun,
+    caged,
     energy,
     frames,
     pressed,
@@ -23,12 +24,14 @@ from tapered_parts import (
     together,
 )
 
+from flexcage.stages import assembled_start
 from flexcage.static import solve_static
 from flexcage.system.data import DRAG, NEIGHBOUR_FRICTION, POWERS, RACE_FRICTION, RIB_FRICTION
 from flexcage.system.statics.options import AT_START
 
 PAIRS = ((3, 4), (9, 10), (16, 0))
 LARGE_RIB = 1
+TILTING = {"load.tilt": "free", "load.tilt_stiffness": "20 kN m/rad"}
 
 
 def test_forces_on_tapered_rollers_and_rings_are_slopes_of_one_energy():
@@ -126,29 +129,39 @@ def test_power_is_what_contacts_of_tapered_rollers_say():
     assert power == pytest.approx(lost - gained, rel=2e-3)
 
 
-@pytest.mark.parametrize("tilt", [0.0, 1e-4])
-def test_a_tapered_bearing_starts_at_its_static_solution(tilt):
-    """Forces of races and rib of exact cones are those of the linear static solution, within what
-    displacements of 15 um on radii of 19 mm make; so all rollers and the ring balance. A ring that
-    is tilted further turns rollers askew, which the static solution leaves out."""
+@pytest.mark.parametrize("tilt, share", [(0.0, 2e-4), (1e-3, 1e-3), (3e-3, 5e-3)])
+def test_a_tapered_bearing_starts_at_its_static_solution(tilt, share):
+    """Forces of races and rib of exact cones are those of the static solution, which is linear and
+    has no skew, within what it leaves out; rollers and the ring balance in all but friction's."""
     case, bearing = tapered(
         **FRICTIONLESS, **ELASTIC, **DRY, **LIGHT,
         **{"drive.speed": "6000 rpm", "load.misalignment": tilt},
     )  # fmt: skip
-    y, yd = begun(case, bearing)
-    rows = bearing.layout.u(bearing.residual(0.0, y, yd, mode=2))
+    start = assembled_start(case, bearing)
+    rows = bearing.layout.u(bearing.residual(0.0, start.y, start.yd, mode=2))
     report, solution = bearing.data.work.report, solve_static(case, options=AT_START)
     e, spec = solution.elements, bearing.spec
     most = e.force.max()
-    assert report.race[:, :, 0] == pytest.approx(e.force, abs=2e-3 * most)
+    assert report.race[:, :, 0] == pytest.approx(e.force, abs=share * most)
     along = report.rib[:, LARGE_RIB] * cos(spec.axis_angle - spec.rib_angle)
-    assert along == pytest.approx(e.axial, abs=0.02 * e.axial.max())
-    assert np.abs(rows["elements"][:, :2]).max() < 2e-3 * most
-    assert np.abs(rows["elements"][:, 3:]).max() < 2e-3 * most * spec.effective_length
-    assert np.abs(rows["inner"][:3]).max() < 2e-3 * 3000.0
+    assert along == pytest.approx(e.axial, abs=max(2e-3, 15.0 * share) * e.axial.max())
+    assert np.abs(rows["elements"][:, :2]).max() < 1e-6 * most
+    assert np.abs(rows["elements"][:, 3:]).max() < 1e-6 * most * spec.effective_length
+    assert np.abs(rows["elements"][:, 2]).max() < 5e-4 * most
+    assert np.abs(rows["inner"][:3]).max() < 1e-6 * 3000.0
     border = bearing.layout.border(bearing.data.work.scratch.border)["inner"]
     held = border[3:][[1, 2]] + solution.reaction[3:]
-    assert np.abs(held).max() < 2e-3 * 3000.0 * spec.pitch_radius
+    assert np.abs(held).max() < max(2e-3, 2.0 * share) * 3000.0 * spec.pitch_radius
+    assert start.residual < 1e-6 and not start.warnings
+
+
+@pytest.mark.parametrize("changes", [TILTING, {"drive.speed": 0.0}, {"load.radial": "4.5 kN"}])
+def test_tapered_rollers_find_their_balance_at_the_start(changes):
+    """In pockets too, with rings that stand, that are free to tilt, and whose load leaves half of
+    the rollers unloaded."""
+    case, bearing = caged(**{"load.misalignment": 2e-3, "load.axial": "2 kN"} | changes)
+    start = assembled_start(case, bearing)
+    assert start.residual < 1e-6 and not start.warnings
 
 
 def rolling(spec, speed):
@@ -250,7 +263,7 @@ def miss(bearing, y, yd, rng, alpha):
 
 @pytest.mark.parametrize("load", [{}, {"load.axial": "6 kN"}, {"load.tilt": "free"}])
 def test_newton_matrix_of_tapered_rollers(load):
-    """Left out: how forces turn with geometry, and how friction follows a light contact."""
+    """Left out: how friction on races follows geometry."""
     case, bearing = tapered(**load, **({"load.radial": "300 N"} if "load.tilt" in load else {}))
     y, yd = begun(case, bearing)
     rng = np.random.default_rng(2)
@@ -259,7 +272,7 @@ def test_newton_matrix_of_tapered_rollers(load):
     power = np.zeros(len(POWERS))
     bearing.function("residual")(0.0, y, yd, bearing.args, np.zeros(len(y)), power)
     bearing.function("note")(0.0, y, bearing.args)
-    assert max(miss(bearing, y, yd, rng, 3e5) for _ in range(5)) < 0.2
+    assert max(miss(bearing, y, yd, rng, 3e5) for _ in range(5)) < 0.06
 
 
 @pytest.mark.slow

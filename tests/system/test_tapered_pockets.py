@@ -91,11 +91,24 @@ def test_all_forces_in_conical_pockets_balance():
     assert np.abs(moments.sum(axis=0)).max() < 1e-12 * np.abs(moments).sum()
 
 
-@pytest.mark.parametrize("soft, limit", [(False, 0.4), (True, 0.8)])
-def test_newton_matrix_in_conical_pockets(soft, limit):
-    """At a run's steps, with friction and damping, as of cylindrical rollers. Ends of rollers touch
-    the rib lightly here, where the matrix lacks how friction follows the force: it has none."""
-    _, bearing = caged(soft=soft, **{"contacts.rib.friction.law": "none"})
+NO_RIB_FRICTION = {"contacts.rib.friction.law": "none"}
+
+
+@pytest.mark.parametrize(
+    "changes, soft, limit",
+    [
+        (NO_RIB_FRICTION, False, 0.05),
+        (NO_RIB_FRICTION, True, 0.05),
+        ({}, False, 1.5),
+        ({}, True, 1.0),
+    ],
+)
+def test_newton_matrix_in_conical_pockets(changes, soft, limit):
+    """At a run's steps, with friction and damping. The rib presses ends with 3 to 6 kN here, whose
+    friction lever and force turn rollers that nothing holds: it is the worst for Newton's steps,
+    which missed by 12 to 90 without the slopes of ``test_tapered_rib`` and without how axes that
+    lean keep their direction while rollers orbit."""
+    _, bearing = caged(soft=soft, **changes)
     y, rng = in_pockets(bearing, pressed(bearing)), np.random.default_rng(5)
     yd = rolling_cones(bearing.data.model, bearing.layout, bearing.spec, y)
     u = bearing.layout.u(y)

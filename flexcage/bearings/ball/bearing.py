@@ -17,7 +17,7 @@ import numpy as np
 
 from flexcage.bearings.ball.spot import BallSpot
 from flexcage.cages.round_pocket.cage import BallCage
-from flexcage.core.spec import GIVEN, option, quantity
+from flexcage.core.spec import option, quantity
 from flexcage.core.units import typeset
 from flexcage.geometry.bearing import (
     Bearing,
@@ -30,6 +30,7 @@ from flexcage.geometry.life.iso281 import BALLS, Endurance
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.other_kinds import SURROUNDINGS
 from flexcage.geometry.spall import BY_RACE, Spall
+from flexcage.geometry.waviness import waviness, waviness_azimuth, waviness_order
 
 if TYPE_CHECKING:
     from flexcage.geometry.fits.changed import Changed
@@ -70,22 +71,12 @@ class BallBearing(Bearing):
     ball_scatter: float = quantity(
         "um", 0.0, doc="standard deviation of ball diameters", minimum=0.0
     )
-    inner_waviness: float = quantity("um", 0.0, doc="amplitude of inner race waviness", minimum=0.0)
-    inner_waviness_order: int = option(
-        2, doc="waves per turn, inner race", minimum=1, when={"inner_waviness": GIVEN}
-    )
-    inner_waviness_azimuth: float = quantity(
-        "deg", 0.0, doc="azimuth of a crest on the inner ring",
-        when={"inner_waviness": GIVEN},
-    )  # fmt: skip
-    outer_waviness: float = quantity("um", 0.0, doc="amplitude of outer race waviness", minimum=0.0)
-    outer_waviness_order: int = option(
-        2, doc="waves per turn, outer race", minimum=1, when={"outer_waviness": GIVEN}
-    )
-    outer_waviness_azimuth: float = quantity(
-        "deg", 0.0, doc="azimuth of a crest on the outer ring",
-        when={"outer_waviness": GIVEN},
-    )  # fmt: skip
+    inner_waviness: float = waviness("inner")
+    inner_waviness_order: int = waviness_order("inner")
+    inner_waviness_azimuth: float = waviness_azimuth("inner")
+    outer_waviness: float = waviness("outer")
+    outer_waviness_order: int = waviness_order("outer")
+    outer_waviness_azimuth: float = waviness_azimuth("outer")
     inner_spall: Spall = option(Spall(), doc="a pit of the inner race, which turns with its ring")
     outer_spall: Spall = option(Spall(), doc="a pit of the outer race")
     ball_spot: BallSpot = option(BallSpot(), doc="a pit or a flat on a ball")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import pi
 from typing import Any, NamedTuple
 
@@ -11,8 +10,9 @@ import numpy as np
 from flexcage.bearings.ball.bearing import BallBearing
 from flexcage.bearings.ball.neighbours import ball_ball_data
 from flexcage.bodies.floating_frame import BodyData, no_body
+from flexcage.cages.halves import signs_of
 from flexcage.cages.round_pocket.cage import BallCage
-from flexcage.cages.round_pocket.interface import BallCageInterface, mirror_image
+from flexcage.cages.round_pocket.interface import BallCageInterface
 from flexcage.contacts import laws
 from flexcage.contacts.ball_ball import BallBallContact
 from flexcage.contacts.ball_pocket import (
@@ -30,6 +30,8 @@ from flexcage.contacts.uneven import is_uneven, spread, uneven_race
 from flexcage.geometry.hertz import PointContact
 from flexcage.geometry.materials import contact_modulus
 from flexcage.geometry.spot import marked
+from flexcage.mesh.rows import RowFrame
+from flexcage.modes.rows import joined_interfaces
 from flexcage.system.bodies import (
     bodies_of,
     inner_ring_of,
@@ -120,38 +122,14 @@ def pocket_contact(bearing: BallBearing, cage: BallCage, radius: float) -> Point
     return PointContact(rolling=along, transverse=fit, modulus=modulus)
 
 
-def in_all_rows(
-    interface: BallCageInterface, bearing: BallBearing, cages: int
-) -> BallCageInterface:
-    """The interface of a row's cage as one of the pockets of all rows; itself of a single row. That
-    of a second row is its mirror image. Of several ``cages`` each stands in its row's middle."""
-    if bearing.row_count == 1:
-        return interface
-    rows = [mirror_image(interface) if mirrored else interface for mirrored in _mirrored(bearing)]
-    along = [row.place if cages == 1 else 0.0 for row in bearing.row_places]
-    centres = [own.centre + np.array([x, 0.0]) for own, x in zip(rows, along, strict=True)]
-    alike = {
-        name: np.concatenate([getattr(own, name) for own in rows])
-        for name in ("modes", "local", "radius", "slot", "offset", "open_at")
-        if getattr(interface, name) is not None
-    }
-    return replace(interface, centre=np.concatenate(centres), **alike)
-
-
-def _mirrored(bearing: BallBearing) -> list[bool]:
-    """Is the cage of each row its mirror image? That of the second one."""
-    return [k > 0 for k in range(bearing.row_count)]
-
-
 def _pockets(
     bearing: BallBearing, cage: BallCage, contacts: Contacts, interface: BallCageInterface
 ) -> BallPockets:
     st = np.ascontiguousarray
-    cages = cage.count_in(bearing)
-    angle = bearing.element_azimuths
-    if cages > 1:  # each turns with its row
-        angle = np.tile(bearing.one_row.element_azimuths, cages)
-    interface = in_all_rows(interface, bearing, cages)
+    cages, signs = cage.count_in(bearing), signs_of(cage, bearing.row_places)
+    angle = np.tile(bearing.pocket_azimuths(cage), cages)
+    if cages > 1:
+        interface = joined_interfaces([interface] * cages, [RowFrame(sign=s) for s in signs])
     theta = interface.stations
     normal = np.sin(theta)[None, :, None] * interface.modes[:, :, 0]
     normal = normal + np.cos(theta)[None, :, None] * interface.modes[:, :, 2]
@@ -162,7 +140,7 @@ def _pockets(
     if interface.open_at is not None:
         ends[:, 2] = np.minimum(ends[:, 2], interface.open_at / interface.radius)
     offset = np.zeros(interface.modes.shape[:3]) if interface.offset is None else interface.offset
-    mirrored = np.repeat(_mirrored(bearing), bearing.ball_count)
+    mirrored = np.repeat(signs, bearing.ball_count) < 0.0
     ends[mirrored, 2:] = ends[mirrored, :1:-1]
     return BallPockets(
         azimuth=st(np.stack([np.cos(angle), np.sin(angle)], axis=1)),

@@ -28,7 +28,7 @@ _MOST_CLEARANCE = 0.05  # of the roller's diameter: leaves one roller to bear a 
 def check(bearing: RollerBearing, cage: Cage | None, defects: Sequence[Any]) -> None:
     """Raise InputError for the first impossibility in the bearing, its cage or the defects."""
     raise_first(find_in_bearing(bearing))
-    raise_first(_find_in_spot(bearing))
+    raise_first(find_in_roller_spot(bearing))
     if cage is None:
         return
     cage.check(bearing.roller_count)
@@ -143,7 +143,7 @@ def find_around_cage(b: RollerBearing, c: Cage) -> Iterator[Finding]:
     yield from find_off_pitch_circle(b, c)
 
 
-def _find_in_spot(b: RollerBearing) -> Iterator[tuple[str, str]]:
+def find_in_roller_spot(b: Any) -> Iterator[tuple[str, str]]:
     """What is impossible in the spot of a bearing's roller; where, and in a sentence."""
     spot, where, reach = b.roller_spot, "bearing.roller_spot", b.effective_length
     if not spot.size:

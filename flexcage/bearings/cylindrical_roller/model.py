@@ -33,7 +33,9 @@ from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT
 from flexcage.contacts.uneven import is_uneven, spread, uneven_race
 from flexcage.geometry.spot import marked
+from flexcage.mesh.rows import RowFrame
 from flexcage.modes.basis import CageInterface, mirror_image
+from flexcage.modes.rows import joined_interfaces
 from flexcage.system.bodies import (
     bodies_of,
     elastic_constants,
@@ -238,19 +240,6 @@ def _rib_data(
     )
 
 
-def _in_all_rows(interface: CageInterface, rows: int) -> CageInterface:
-    """The interface of a row's cage as one of the pockets of all rows; that of further rows is its
-    mirror image."""
-    if rows == 1:
-        return interface
-    names, each = ("offset", "modes", "residual", "compliance"), mirror_image(interface)
-    all_rows: dict[str, Any] = {
-        name: np.concatenate([getattr(interface, name), *[getattr(each, name)] * (rows - 1)])
-        for name in names
-    }
-    return replace(interface, **all_rows)
-
-
 def _places_of_rows(bearing: RollerBearing) -> np.ndarray:
     """Middle (Z,) [m] of the row of every roller."""
     return np.repeat([row.place for row in bearing.row_places], bearing.roller_count)
@@ -258,11 +247,12 @@ def _places_of_rows(bearing: RollerBearing) -> np.ndarray:
 
 def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) -> PocketData:
     s, drop = slice_grid(bearing, contacts.pocket.slices)
-    interface, cages = _in_all_rows(interface, bearing.row_count), cage.count_in(bearing)
+    cages, place = cage.count_in(bearing), _places_of_rows(bearing)
     at = interface.stations if interface.offset_at is None else interface.offset_at
-    angle, place = bearing.element_azimuths, _places_of_rows(bearing)
-    if cages > 1:  # each stands in the middle of its row, and turns with it
-        angle, place = np.tile(bearing.one_row.element_azimuths, cages), 0.0 * place
+    angle = np.tile(bearing.pocket_azimuths(cage), cages)
+    if cages > 1:  # each stands in the middle of its row
+        images, place = [interface, *[mirror_image(interface)] * (cages - 1)], 0.0 * place
+        interface = joined_interfaces(images, [RowFrame()] * cages)
     return pocket_arrays(
         interface, interface.modes, interface.stations, at, contacts, angle,
         place=place, s=s, drop=drop,

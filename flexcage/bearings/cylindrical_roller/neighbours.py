@@ -8,7 +8,7 @@ of a pair follows the other, as with balls (``bearings.ball.neighbours``).
 from __future__ import annotations
 
 from math import cos, pi, sin
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from flexcage.contacts import laws as contact_laws
 from flexcage.contacts.ball_ball import rotated
@@ -32,7 +32,6 @@ from flexcage.system.layout import of_element
 if TYPE_CHECKING:
     import numpy as np
 
-    from flexcage.bearings.cylindrical_roller.bearing import RollerBearing
     from flexcage.contacts.spec import Contacts
 
 _LINE = 10.0 / 9.0  # exponent of ``iso_line_stiffness``
@@ -40,7 +39,7 @@ NEXT_ROLLER = POCKET  # place of a roller's contact with the next one
 
 
 def roller_roller_data(
-    bearing: RollerBearing, contacts: Contacts, s: np.ndarray, drop: np.ndarray
+    bearing: Any, contacts: Contacts, s: np.ndarray, drop: np.ndarray
 ) -> RollerRollerContact:
     """How rollers touch each other, by the laws of the races; their approach under a force is that
     of a line contact, whatever its curvature (A. Palmgren, see ``laws.iso_line_stiffness``)."""

@@ -43,7 +43,7 @@ def _variables(bearing: BearingSystem, y: np.ndarray) -> dict[str, np.ndarray]:
         **on_races(bearing, y),
         "rib_force": s.rib[:n, :, :2],
         "counter_rib_force": s.rib[:n, :, 2:] if s.rib.shape[2] > 2 else np.zeros_like(s.rib[:n]),
-        **_spots(bearing.data.model, bearing.layout.q(y)["elements"]),
+        **spot_directions(bearing.data.model, bearing.layout.q(y)["elements"]),
     }
 
 
@@ -81,11 +81,11 @@ def neighbour_forces(bearing: BearingSystem, n: int) -> dict[str, np.ndarray]:
     return {"neighbour_force": bearing.data.samples.pocket_normal[:n, :, 0]}
 
 
-def _spotted(model: RollerModel) -> np.ndarray:
+def _spotted(model: Any) -> np.ndarray:
     return np.flatnonzero(model.spot.has)
 
 
-def _spots(model: RollerModel, q: np.ndarray) -> dict[str, np.ndarray]:
+def spot_directions(model: Any, q: np.ndarray) -> dict[str, np.ndarray]:
     """Directions of spots in space, which turn with their rollers."""
     spotted, angle = _spotted(model), model.spot.angle
     if not len(spotted):

@@ -24,9 +24,9 @@ SAMPLES_READ = 2000  # samples whose slices are held at a time
 
 def rubbing(ds: xarray.Dataset, bearing: Bearing, cage: Cage) -> Rubbing:
     """Rollers on crossbeams by slices, and on side beams with the mean speed of their ends."""
-    points = end_points(bearing, cage)  # type: ignore[arg-type]
+    points, angle = end_points(bearing, cage), bearing.pocket_azimuths(cage)  # type: ignore[arg-type]
     parts = [
-        _rub(ds.isel(time=slice(first, first + SAMPLES_READ)), bearing, points)
+        _rub(ds.isel(time=slice(first, first + SAMPLES_READ)), bearing, points, angle)
         for first in range(0, ds.sizes["time"], SAMPLES_READ)
     ]
     *series, sums = zip(*parts)
@@ -43,11 +43,14 @@ def rubbing(ds: xarray.Dataset, bearing: Bearing, cage: Cage) -> Rubbing:
     return Rubbing(power, cells, lengths, heights, np.array([radius, radius, 0.0, 0.0]), drag)
 
 
-def _rub(ds: xarray.Dataset, bearing: Bearing, points: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Over some samples: normal force times sliding speed on every face (t, z, 4) [W], normal force
-    on crossbeams (t, z, 2) [N], rollers' radial place in their pockets (t, z) [m], friction of all
-    (t,) [W], and the sum of the first over time by slices of crossbeams (z, 2, s) [W]."""
-    motion = pocket_motion(ds)
+def _rub(
+    ds: xarray.Dataset, bearing: Bearing, points: np.ndarray, angle: np.ndarray
+) -> tuple[np.ndarray, ...]:
+    """With pockets at ``angle`` (Z,), over some samples: normal force times sliding speed on every
+    face (t, z, 4) [W], normal force on crossbeams (t, z, 2) [N], rollers' radial place in their
+    pockets (t, z) [m], friction of all (t,) [W], and the sum of the first over time by slices of
+    crossbeams (z, 2, s) [W]."""
+    motion = pocket_motion(ds, angle)
     beams = slice_speeds(motion, ds["slice"].values, 0.5 * bearing.element_diameter)
     ends = end_speeds(motion, points, 0.5 * bearing.element_length)
     order = ("time", "pocket", "face")

@@ -1,8 +1,7 @@
 """The start of a roller bearing's run: quasi-static equilibrium at epicyclic speeds.
 
-Rings, rollers and a pinched cage are brought to equilibrium without friction: Newton's method
-on the momentum rows with the velocities of pure rolling, in the metric of the mass matrix (an
-implicit Euler step from rest, whose length grows as it succeeds). Rollers stay where they are along
+Rings, rollers and a pinched cage are brought to equilibrium without friction (``frictionless``),
+with the velocities of pure rolling. Rollers stay where they are along
 their orbit, where friction would hold them, and between the ribs that guide them, those of a ring
 that is free along the axis or in tilt included; only where ribs of both rings bear an axial load do
 they find their place along the axis. A pinched cage finds its place, and a free one is moved off a
@@ -15,26 +14,29 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
+from flexcage.bearings.cylindrical_roller.frictionless import (
+    Frictionless,
+    HeldMotions,
+    advance_y,
+    axial_load,
+    equilibrate,
+    free_motions,
+    has_pits,
+    load_of,
+    stop_cage,
+    without_pits,
+)
 from flexcage.bearings.cylindrical_roller.model import RollerModel
-from flexcage.contacts import laws
-from flexcage.contacts.evaluation import REPORT, RESIDUAL, TANGENT
-from flexcage.contacts.land import DRY, NONE
-from flexcage.contacts.pocket_wall import with_offset
-from flexcage.contacts.race import RaceSide
 from flexcage.contacts.state import U_SKEW, U_TILT
-from flexcage.contacts.uneven import is_uneven
 from flexcage.core.errors import InputError, RunFailed
-from flexcage.core.vectors import RIGID
 from flexcage.geometry.kinematics import epicyclic
 from flexcage.system.begun import Advance, Start, StaticStart
-from flexcage.system.constraints import OFF, no_rows
 from flexcage.system.data import INNER_RACE, OUTER_RACE
 from flexcage.system.layout import Layout
-from flexcage.system.newton import assemble, newton_step
 from flexcage.system.problem import BearingSystem
 from flexcage.system.ring import CLEARANCE
 from flexcage.system.rings.modes_data import standing
@@ -43,16 +45,11 @@ from flexcage.system.rings.neglected import neglected_at_ribs
 from flexcage.system.rings.sections import lands_follow
 from flexcage.system.start import clear_of_land, place_cages, turn_cages
 
-_SMALL = 1e-7  # of the load: where an equilibrium is accepted
 _BALANCED = 1e-6  # of the load: what may stay unbalanced at last
 # likewise on spots: a roller over the middle of one pushes along the race from either edge
 _ON_SPOTS = 0.01
 TOUCH = 1e-9  # [m] interference that is only a touch
 STAGES = 8  # steps of a pinching defect's growth
-_HOLD = 1e12  # stiffness that holds a coordinate, far above that of any contact
-# longest step of centres [m], and of a roller's tilt and skew [rad], by which its ends move by some
-# 0.4 um: one that is hardly loaded resists so little that longer ones may swing over for ever
-_SHIFT, _TURN = 1e-5, 1e-4
 
 
 def rolling_velocities(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarray:
@@ -83,10 +80,7 @@ def rolling_velocities(model: RollerModel, layout: Layout, y: np.ndarray) -> np.
 
 def standing_cage(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarray:
     """Velocities of pure rolling, but for the cage: nothing elastic holds its unbalance."""
-    yd = rolling_velocities(model, layout, y)
-    if layout.has_cage:
-        layout.u(y)["omega"][:], layout.q(yd)["quaternion"][:] = 0.0, 0.0
-    return yd
+    return stop_cage(layout, y, rolling_velocities(model, layout, y))
 
 
 def pocket_clearance(model: RollerModel, offset: np.ndarray) -> np.ndarray:
@@ -123,15 +117,10 @@ def geometric_guess(model: RollerModel, layout: Layout) -> np.ndarray:
     return y
 
 
-def _axial_load(model: RollerModel) -> float:
-    """The axial load at the start [N]."""
-    return float(np.interp(0.0, *model.bodies.axial))
-
-
 def _bearing_ribs(model: RollerModel) -> int:
     """Direction along x in which ribs of both rings bear the axial load at the start: 1 or -1; 0 if
     they bear none."""
-    inner, outer, load = model.rib, model.outer_rib, _axial_load(model)
+    inner, outer, load = model.rib, model.outer_rib, axial_load(model)
     ways = {1: inner.end == 2 and outer.first == 0, -1: inner.first == 0 and outer.end == 2}
     way = int(np.sign(load)) if model.inner_ring.free[0] else 0
     return way if ways.get(way, False) else 0
@@ -139,11 +128,8 @@ def _bearing_ribs(model: RollerModel) -> int:
 
 def _axial_place(model: RollerModel) -> float:
     """Where the axial load moves the inner ring, on the shaft's spring or against ribs [m]."""
-    load, stiffness, way = (
-        _axial_load(model),
-        model.inner_ring.stiffness[0, 0],
-        _bearing_ribs(model),
-    )
+    load, stiffness = axial_load(model), model.inner_ring.stiffness[0, 0]
+    way = _bearing_ribs(model)
     by_spring = load / stiffness if stiffness > 0.0 else 0.0
     if not way:
         return by_spring
@@ -172,58 +158,8 @@ def _between_ribs(model: RollerModel, layout: Layout, y: np.ndarray) -> np.ndarr
     return along + model.rows.place
 
 
-class _Frictionless:
-    """The bearing without friction, damping, drag, rolling resistance and gravity, and without
-    films; ``lands``: with the cage's dry lands, which a free cage is to keep off by itself."""
-
-    def __init__(self, bearing: BearingSystem, offset: np.ndarray, *, lands: bool = False) -> None:
-        model = bearing.data.model
-        land = min(model.land.kind, DRY) if lands else NONE
-        still = model._replace(
-            bodies=model.bodies._replace(gravity=np.zeros(3), drag=np.zeros(2)),
-            inner_ring=model.inner_ring._replace(damping=np.zeros((6, 6))),
-            inner=model.inner._replace(rolling=np.zeros(2)),
-            outer=model.outer._replace(rolling=np.zeros(2)),
-            land=model.land._replace(kind=land),
-            pocket=with_offset(model.pocket, offset),
-        )
-        self.bearing = bearing
-        free = bearing.data.constraints
-        free = free._replace(level=np.full(len(free.level), float(OFF)))
-        self.data = bearing.data._replace(model=still, constraints=free)
-        own = (laws.elastic,) * 5 + (laws.no_friction,) * 5 + (no_rows, bearing.laws[-1])
-        self.args = bearing.arguments(self.data, own)
-        self.out = np.zeros(bearing.layout.size)
-
-    def residual(self, y: np.ndarray, yd: np.ndarray) -> np.ndarray:
-        self._evaluate(y, yd, RESIDUAL)
-        return self.out.copy()
-
-    def _evaluate(self, y: np.ndarray, yd: np.ndarray, mode: int) -> None:
-        self.bearing.evaluate(0.0, y, yd, self.args[0], self.args[1], self.out, mode)
-
-    def report(self, y: np.ndarray, yd: np.ndarray):
-        self._evaluate(y, yd, REPORT)
-        return self.data.work.report
-
-    def step(self, y, yd, r, alpha: float, held: HeldMotions) -> np.ndarray:
-        """Displacement step dq of the implicit Euler step 1/alpha from rest."""
-        tangent, at = self.data.work.tangent, self.data.places
-        self._evaluate(y, yd, TANGENT)
-        roller, row = np.nonzero(held.rollers)
-        tangent.Krr[roller, row, row] += _HOLD
-        for k in range(at.cages):
-            row = at.cage_b + k * (RIGID + at.modes) + np.flatnonzero(held.cage)
-            tangent.Kbb[row, row] += _HOLD
-        if not assemble(alpha, self.data.model.bodies, at, tangent, self.data.matrix):
-            raise RunFailed("the start's equilibrium has a singular matrix; is a body massless?")
-        r = r.copy()
-        newton_step(alpha, y, r, at, tangent, self.data.matrix)
-        return r
-
-
 def _check_force(
-    system: _Frictionless, y: np.ndarray, yd: np.ndarray, limit: float, share: float,
+    system: Frictionless, y: np.ndarray, yd: np.ndarray, limit: float, share: float,
     pinched: np.ndarray,
 ) -> None:  # fmt: skip
     """InputError for a pocket that pushes with more than ``limit`` [N]."""
@@ -278,23 +214,9 @@ def _sound_one_assembles(bearing: BearingSystem, limit: float) -> bool:
     y = geometric_guess(model, layout)
     yd = standing_cage(model, layout, y)
     tight = pocket_clearance(model, none) < -TOUCH
-    system = _Frictionless(bearing, none)
+    system = Frictionless(bearing, none)
     residual = _assemble(system, y, yd, tight)
     return residual <= _BALANCED and system.report(y, yd).pocket_normal.max() <= limit
-
-
-def _load(model: RollerModel) -> float:
-    """The load at the start [N], by which unbalanced forces are measured."""
-    return max(float(np.interp(0.0, *model.bodies.load)), abs(_axial_load(model)), 1.0)
-
-
-@dataclass(frozen=True)
-class HeldMotions:
-    """Motions that friction holds while the bearing is brought to equilibrium without it."""
-
-    # (Z, 6) along the orbit; sideways and in skew unless pinched; in spin on the edges of a spot
-    rollers: np.ndarray
-    cage: np.ndarray  # (6,) where a pinch holds the cage: all but those along which it squeezes
 
 
 def _held(tight: np.ndarray, spotted: np.ndarray, *, along: bool) -> HeldMotions:
@@ -312,69 +234,26 @@ def _held(tight: np.ndarray, spotted: np.ndarray, *, along: bool) -> HeldMotions
     return HeldMotions(rollers, cage)
 
 
-def _measure(
-    layout: Layout, r: np.ndarray, lever: float, held: HeldMotions, free: np.ndarray
-) -> float:
-    """Largest unbalanced force [N] (moments over a lever) of the rows that are free; ``free`` (3,):
-    is the inner ring free axially, in skew, in tilt?"""
-    u = {k: v.copy() for k, v in layout.u(r).items()}
-    u["elements"][:, 3:] /= lever
-    u["inner"][[0, 4, 5]] *= free  # the others are constrained: their multipliers balance them
-    u["inner"][3] = 0.0
-    u["inner"][4:] /= lever
-    u["outer"][3:] /= lever
-    names = ["elements", "inner", "outer"]
-    if held.cage.any():  # nothing holds a free cage
-        u["omega"] /= 10.0 * lever
-        names = list(u)
-    return max(float(np.abs(u[k]).max()) for k in names if u[k].size)
-
-
-def _equilibrate(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np.ndarray) -> float:
+def _equilibrate(system: Frictionless, y: np.ndarray, yd: np.ndarray, tight: np.ndarray) -> float:
     """Bring y to equilibrium in place; the residual reached, as a share of the load.
 
     ``tight`` (Z, 2) marks the pockets that are too small for their roller at this stage.
     """
-    model = system.data.model
+    model, layout = system.data.model, system.bearing.layout
     held = _held(tight, model.spot.has > 0, along=_bearing_ribs(model) != 0)
-    load = _load(model)
-    layout = system.bearing.layout
-    nq, n_qu = layout.n_q, layout.n_q + layout.n_u
-    free = model.inner_ring.free[[0, U_SKEW, U_TILT]]
-    lever, loose = float(model.bodies.radius.mean()), np.flatnonzero(free)
-    alpha, last = 1e5, np.inf
-    for _ in range(400):
-        r = system.residual(y, yd)
-        rows = layout.u(r)
-        rows["elements"][held.rollers] = 0.0
-        if held.cage.any():
-            rows["cage"][..., held.cage[:3]], rows["omega"][..., held.cage[3:]] = 0.0, 0.0
-        size = _measure(layout, r, lever, held, free) / load
-        if size < _SMALL:
-            break
-        alpha = max(alpha * 0.5, 500.0) if size <= 3.0 * last else min(alpha * 10.0, 1e6)
-        last = size
-        step = system.step(y, yd, r, alpha, held)
-        dq = layout.q(step)
-        centres = dq["elements"][:, :2], dq["inner"][:3], dq["outer"][:3]
-        shift = max(np.abs(moved).max() for moved in centres)
-        turn = np.abs(dq["elements"][:, 3:5]).max()
-        share = min(1.0, _SHIFT / max(shift, 1e-30), _TURN / max(turn, 1e-30))
+
+    def move(y: np.ndarray, step: np.ndarray) -> None:
         ribs = _between_ribs(model, layout, y)
-        y[:nq] += step[:nq] * share
-        if len(loose):
-            y[n_qu + loose] += step[n_qu + loose] * share
+        advance_y(system, y, step)
+        if free_motions(model).any():
             layout.q(y)["elements"][:, 0] += _between_ribs(model, layout, y) - ribs
             if layout.has_cage and _guided_by_inner(model):
-                layout.q(y)["cage"][..., 0] += dq["inner"][0] * share
-        if layout.has_cage:
-            for quaternion in np.atleast_2d(layout.q(y)["quaternion"]):
-                quaternion /= np.linalg.norm(quaternion)
-        yd[:] = standing_cage(model, layout, y)
-    return size
+                layout.q(y)["cage"][..., 0] += layout.q(step)["inner"][0]
+
+    return equilibrate(system, y, yd, held, lambda y: standing_cage(model, layout, y), move)
 
 
-def _assemble(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np.ndarray) -> float:
+def _assemble(system: Frictionless, y: np.ndarray, yd: np.ndarray, tight: np.ndarray) -> float:
     """Bring y to equilibrium, with the cage out of the way of its land's ring; the residual."""
     model, layout = system.bearing.data.model, system.bearing.layout
     residual = _equilibrate(system, y, yd, tight)
@@ -382,7 +261,7 @@ def _assemble(system: _Frictionless, y: np.ndarray, yd: np.ndarray, tight: np.nd
         residual = _equilibrate(system, y, yd, tight)
         if not tight.any():
             squeezed = np.abs(layout.u(system.residual(y, yd))["cage"]).max()  # by its pockets
-            residual = max(residual, float(squeezed) / _load(model))
+            residual = max(residual, float(squeezed) / load_of(model))
     return residual
 
 
@@ -405,27 +284,14 @@ def roller_start(
     """Equilibrium at epicyclic speeds; the static solution is not asked for. Where none is found on
     spalls or on spots of rollers, the start is that of even ones."""
     model = bearing.data.model
-    spotted = bool(model.spot.has.any())
-    if spotted or model.inner.spall[0] > 0.0 or model.outer.spall[0] > 0.0:
-        allowed = _ON_SPOTS if spotted else _BALANCED
+    if has_pits(model):
+        allowed = _ON_SPOTS if model.spot.has.any() else _BALANCED
         try:
             return _start(bearing, limit_force, advance, allowed=allowed)
         except RunFailed:
             bearing = copy(bearing)
-            bearing.data = bearing.data._replace(model=_without_pits(model))
+            bearing.data = bearing.data._replace(model=without_pits(model))
     return _start(bearing, limit_force, advance, allowed=_BALANCED)
-
-
-def _without_pits(model: RollerModel) -> RollerModel:
-    """The model with neither spalls of races nor spots of rollers."""
-    spot = model.spot._replace(has=0 * model.spot.has)
-    return model._replace(spot=spot, inner=_even(model.inner), outer=_even(model.outer))
-
-
-def _even(side: RaceSide) -> RaceSide:
-    """The race without its spall."""
-    spall = 0.0 * side.spall
-    return side._replace(spall=spall, uneven=is_uneven(side.wave, spall))
 
 
 def _start(
@@ -441,7 +307,7 @@ def _start(
     for stage, share in enumerate(shares, start=1):
         tight = pocket_clearance(model, offset * share) < -TOUCH
         pinched = np.flatnonzero(np.any(tight, axis=1))
-        system = _Frictionless(bearing, offset * share)
+        system = Frictionless(bearing, offset * share)
         middle = np.stack(
             [offset[:, 0].min(axis=1) - offset[:, 1].min(axis=1),
              offset[:, 2].min(axis=1) - offset[:, 3].min(axis=1)], axis=1,
@@ -454,7 +320,7 @@ def _start(
         _check_force(system, y, yd, limit_force, share, pinched)
         advance(stage / len(shares))
     if len(pinched):  # and held, whether its land is in the way or not
-        system = _Frictionless(bearing, offset, lands=True)
+        system = Frictionless(bearing, offset, lands=True)
         residual = _equilibrate(system, y, yd, tight)
         _check_force(system, y, yd, limit_force, 1.0, pinched)
     if residual > allowed:
@@ -486,7 +352,7 @@ def roller_start_between_bent_rings(
     still = lands_follow(model._replace(rings=rings, inner_modes=inner, outer_modes=outer))
     held.data = bearing.data._replace(model=still)
     start = roller_start(held, limit_force=limit_force, statics=None, advance=advance)
-    _Frictionless(held, model.pocket.offset).residual(start.y, start.yd)
+    Frictionless(held, model.pocket.offset).residual(start.y, start.yd)
     y = bearing.rings.begun(start.y, bearing.layout)
     bearing.layout.ring_forces(y)[:] = rings.force
     sentences = (*start.warnings, *_neglected_at_ribs(bearing.rings, model))

@@ -25,6 +25,14 @@ class Barrel:
         found: np.ndarray = 0.5 * self.diameter - sagitta
         return found
 
+    def spheres(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Spheres about the axis that touch the surface at distances x (n,) [m] from mid-length:
+        places (n,) of their centres on it, and radii (n,) [m]. The surface's normal goes through
+        the centre of the profile's arc, beyond the axis."""
+        beyond = self.profile - 0.5 * self.diameter
+        share = beyond / np.sqrt(self.profile**2 - np.asarray(x, float) ** 2)
+        return x * share, self.profile * (1.0 - share)
+
     @property
     def end_radius(self) -> float:
         """Radius [m] of the ends."""

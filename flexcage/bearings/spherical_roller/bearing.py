@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from flexcage.bearings.spherical_roller.barrel import Barrel
 from flexcage.bearings.two_rows import RowFields, RowPlace
-from flexcage.cages.window.cage import WindowCage
+from flexcage.cages.barrel.cage import BarrelCage
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import typeset
 from flexcage.geometry.bearing import Bearing, Spec, type_name
@@ -44,7 +44,7 @@ class SphericalRollerBearing(RowFields, OfInclinedRollers, Bearing):
     """
 
     kind: ClassVar[str] = "spherical roller bearing"
-    cage_spec: ClassVar[Spec] = WindowCage
+    cage_spec: ClassVar[Spec] = BarrelCage
     element: ClassVar[str] = "barrel roller"
     family: ClassVar[str] = "spherical_roller"
     places: ClassVar[tuple[str, ...]] = ("race",)

@@ -8,25 +8,22 @@ from math import asin, cos, pi, sin, sqrt
 from typing import Any
 
 from flexcage.bearings.spherical_roller.bearing import SphericalRollerBearing
-from flexcage.core.errors import InputError
 from flexcage.core.units import describe, mm
 from flexcage.geometry.cage import Cage
-from flexcage.geometry.checks import Finding, raise_first
+from flexcage.geometry.checks import Finding, check_cage_defects, check_fit, raise_first
 
 
 def check(b: SphericalRollerBearing, cage: Cage | None, defects: Sequence[Any]) -> None:
-    """Raise InputError for the first impossibility in the bearing; a cage is refused."""
+    """Raise InputError for the first impossibility in the bearing, its cage or the defects."""
     raise_first(_find_in_sizes(b))
     raise_first(_find_in_profiles(b))
     raise_first(_find_between_rollers(b))
     raise_first(_find_between_rows(b))
     raise_first(_find_in_rings(b))
     if cage is not None:
-        raise InputError(
-            "[cage] is given, but flexcage has no cage of barrels, whose motion it does not "
-            "compute; leave it out.",
-            where="cage",
-        )
+        cage.check(b.roller_count)
+        check_fit(b, cage, iter(()))
+        check_cage_defects(b, cage, defects)
 
 
 def _find_in_sizes(b: SphericalRollerBearing) -> Iterator[Finding]:

@@ -53,10 +53,14 @@ def roller_plane(b: SphericalRollerBearing) -> RollerPlane:
     return RollerPlane(b.axis_angle, b.pitch_radius, 0.5 * b.effective_length)
 
 
+def slice_places(b: SphericalRollerBearing, slices: int) -> np.ndarray:
+    """Middles (n,) [m] of slices along a barrel, from its own."""
+    return (np.arange(slices) + 0.5) / slices * b.effective_length - 0.5 * b.effective_length
+
+
 def meeting(b: SphericalRollerBearing, slices: int) -> Meeting:
     """The contacts of a roller of the row at +x."""
-    half = 0.5 * b.effective_length
-    x = ((np.arange(slices) + 0.5) / slices * 2.0 - 1.0) * half
+    x = slice_places(b, slices)
     radius = b.roller.radius(x)
     below, above = np.column_stack([x, -radius]), np.column_stack([x, radius])
     # centres of both races' arcs, across from the roller's middle

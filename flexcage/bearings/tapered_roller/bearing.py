@@ -15,6 +15,7 @@ from functools import cached_property
 from math import atan, cos, pi, sin, sqrt
 from typing import TYPE_CHECKING, ClassVar
 
+from flexcage.bearings.cylindrical_roller.spot import RollerSpot
 from flexcage.bearings.tapered_roller.frustum import Frustum
 from flexcage.cages.conical.cage import ConicalCage
 from flexcage.core.spec import option, quantity
@@ -26,6 +27,8 @@ from flexcage.geometry.life.iso281 import ROLLERS, Endurance
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.other_kinds import SURROUNDINGS
 from flexcage.geometry.rollers import RollerProfile
+from flexcage.geometry.spall import BY_RACE, Spall
+from flexcage.geometry.waviness import waviness, waviness_azimuth, waviness_order
 
 if TYPE_CHECKING:
     from flexcage.geometry.fits.changed import Changed
@@ -56,6 +59,7 @@ class TaperedRollerBearing(OfInclinedRollers, Bearing):
     elsewhere: ClassVar[Mapping[str, str]] = {
         "(cup|cone|half|outer|inner|taper).?angle": BY_ANGLE,
         "(radial|axial)_clearance|end_play": FIRST_CONTACT,
+        **BY_RACE,
         **SURROUNDINGS,
     }
 
@@ -83,6 +87,15 @@ class TaperedRollerBearing(OfInclinedRollers, Bearing):
     element_material: Material | None = option(
         None, doc="material of the rollers, as Si3N4 (default: bearing.material)"
     )
+    inner_waviness: float = waviness("inner")
+    inner_waviness_order: int = waviness_order("inner")
+    inner_waviness_azimuth: float = waviness_azimuth("inner")
+    outer_waviness: float = waviness("outer")
+    outer_waviness_order: int = waviness_order("outer")
+    outer_waviness_azimuth: float = waviness_azimuth("outer")
+    inner_spall: Spall = option(Spall(), doc="a pit of the inner race, which turns with its ring")
+    outer_spall: Spall = option(Spall(), doc="a pit of the outer race")
+    roller_spot: RollerSpot = option(RollerSpot(), doc="a pit or a flat on a roller")
 
     @cached_property
     def half_angle(self) -> float:
@@ -203,4 +216,6 @@ class TaperedRollerBearing(OfInclinedRollers, Bearing):
             f"{self.name_and_size} with {self.roller_count} rollers from {typeset(large, 'mm')} to "
             f"{typeset(small, 'mm')} in diameter and {typeset(self.roller_length, 'mm')} "
             f"long{self.of_what}, contact angle {angle}."
+            f"{self.inner_spall.in_words('inner')}{self.outer_spall.in_words('outer')}"
+            f"{self.roller_spot.in_words()}"
         )

@@ -7,10 +7,12 @@ from collections.abc import Iterator, Sequence
 from math import asin, cos, pi, sin
 from typing import Any
 
+from flexcage.bearings.cylindrical_roller.checks import find_in_roller_spot
 from flexcage.bearings.tapered_roller.bearing import TaperedRollerBearing
 from flexcage.core.units import describe, mm
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.checks import Finding, check_cage_defects, check_fit, raise_first
+from flexcage.geometry.spall import find_in_spall
 
 
 def check(b: TaperedRollerBearing, cage: Cage | None, defects: Sequence[Any]) -> None:
@@ -20,6 +22,9 @@ def check(b: TaperedRollerBearing, cage: Cage | None, defects: Sequence[Any]) ->
     raise_first(_find_between_rollers(b))
     raise_first(_find_at_rib(b))
     raise_first(_find_in_rings(b))
+    for ring, diameter in zip(("inner", "outer"), b.race_diameters):
+        raise_first(find_in_spall(b, ring, 0.5 * diameter, 0.5 * b.effective_length))
+    raise_first(find_in_roller_spot(b))
     if cage is None:
         return
     cage.check(b.roller_count)

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from flexcage.bearings.cylindrical_roller.model import SpottedRollers
+from flexcage.bearings.cylindrical_roller.neighbours import roller_roller_data
 from flexcage.bearings.tapered_roller.bearing import TaperedRollerBearing
 from flexcage.bearings.tapered_roller.pocket_data import cone_pocket_data, face_frames, no_frames
 from flexcage.bearings.tapered_roller.spheres import spheres
@@ -23,7 +24,9 @@ from flexcage.contacts.pocket_wall import PocketData, no_pockets
 from flexcage.contacts.race import race_work
 from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT
+from flexcage.contacts.uneven import is_uneven, spread, uneven_race
 from flexcage.geometry.rollers import LINE_EXPONENT
+from flexcage.geometry.spot import marked
 from flexcage.system.bodies import bodies_of, inner_ring_of, outer_ring_of, unbalanced
 from flexcage.system.data import Bodies, RingBody, Work, new_work
 from flexcage.system.layout import Layout
@@ -56,7 +59,10 @@ def _side(
     n, k = contacts.race.slices, 0 if inner else 1
     s, reach = spheres(b, n)
     angle, radius, own = b.race_angles[k], 0.5 * b.race_diameters[k], 0.5 * b.roller_diameter
-    modulus, length = b.race_modulus, b.effective_length
+    modulus, length, effective = b.race_modulus, b.effective_length, b.curvature_radii[k]
+    x, _ = b.profile.slices(n, diameter=b.roller_diameter, length=length)
+    wave, spall = uneven_race(b, "inner" if inner else "outer", radius, effective)
+    spot, width = b.roller_spot, length / n
     stiffness = laws.iso_line_stiffness(length, modulus)
     return ConeSide(
         sign=1.0 if inner else -1.0,
@@ -72,8 +78,14 @@ def _side(
         middle=-b.roller.centre,
         normal=laws.normal_parameters(contacts.race.normal, stiffness, LINE_EXPONENT, parts=n),
         friction=laws.friction_parameters(contacts.race.friction),
-        rolling=laws.rolling_resistance(lubricant, b.curvature_radii[k], length, modulus),
+        rolling=laws.rolling_resistance(lubricant, effective, length, modulus),
         hydro=2.0 * radius / b.pitch_radius,
+        wave=wave,
+        spall=spall,
+        spalled=(b.inner_spall if inner else b.outer_spall).covered(x, width),
+        uneven=is_uneven(wave, spall),
+        spot=spot.dimensions(own, effective, spread(effective, modulus)),
+        spotted=spot.covered(x, width),
     )
 
 
@@ -92,18 +104,6 @@ def _end(b: TaperedRollerBearing, contacts: Contacts) -> EndData:
         normal=laws.normal_parameters(rib.normal, b.rib_contact.stiffness, RIB_EXPONENT),
         friction=laws.friction_parameters(rib.friction),
     )
-
-
-def _neighbours(b: TaperedRollerBearing, contacts: Contacts) -> ConeConeContact:
-    """How rollers touch each other, by the laws of the races, as cylinders do."""
-    n = contacts.race.slices
-    s, reach = spheres(b, n)
-    two = laws.iso_line_stiffness(b.effective_length, b.rolling_material.plane_strain_modulus)
-    return ConeConeContact(
-        s=s, reach=reach,
-        normal=laws.normal_parameters(contacts.race.normal, two, LINE_EXPONENT, parts=n),
-        friction=laws.friction_parameters(contacts.race.friction),
-    )  # fmt: skip
 
 
 def build_tapered_model(
@@ -129,8 +129,10 @@ def build_tapered_model(
             cone_pocket_data(bearing, cage, contacts, interface) if cage
             else no_pockets(count, 0.5 * bearing.roller_length)
         ),
-        neighbours=_neighbours(bearing, contacts),
-        spot=SpottedRollers(np.zeros(count, np.int64), 0.0),
+        neighbours=ConeConeContact(
+            *roller_roller_data(bearing, contacts, *spheres(bearing, contacts.race.slices))
+        ),
+        spot=SpottedRollers(marked(count, bearing.roller_spot.rollers), bearing.roller_spot.angle),
         land=no_land(),
         frames=face_frames(bearing, cage) if cage else no_frames(),
     )  # fmt: skip

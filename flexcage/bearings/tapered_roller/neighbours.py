@@ -29,11 +29,11 @@ def touch_next(t, y, yd, d, law, out, mode):
     at = fields(d.places)
     for i in range(at.elements):
         j = i + 1 if i + 1 < at.elements else 0
-        _touch(i, j, y[: at.bodies_q], d, law, mode)
+        touch(i, j, y[: at.bodies_q], d, law, mode)
 
 
 @outlined
-def _touch(i, j, q, d, law, mode):
+def touch(i, j, q, d, law, mode):
     """Rollers i and j."""
     sl, data, work = fields(d.slices).row[0], fields(d.neighbours), fields(d.scratch)
     rep = fields(d.report)

@@ -24,19 +24,19 @@ from flexcage.modes.basis import CageInterface
 
 def no_frames() -> FaceFrames:
     """Those of a bearing without a cage."""
-    return FaceFrames(np.zeros((FACES, 3, 3)), 0.0, 0.0)
+    return FaceFrames(np.zeros((FACES, 3, 3)), 0.0, 0.0, 0.0)
 
 
 def face_frames(b: TaperedRollerBearing, cage: ConicalCage) -> FaceFrames:
     """Axes of the faces, each right-handed with its normal across a bar or along the roller."""
-    own = _own_axes(pocket_walls(cage))
+    own = own_axes(pocket_walls(cage))
     return FaceFrames(
         axes=np.ascontiguousarray(own @ cage.axes), origin=0.5 * cage.pitch_diameter,
-        taper=sin(b.half_angle),
+        whole=b.sphere_at_centre, taper=sin(b.half_angle),
     )  # fmt: skip
 
 
-def _own_axes(walls: PocketWalls) -> np.ndarray:
+def own_axes(walls: PocketWalls) -> np.ndarray:
     """The same (4, 3, 3) in the pocket's own frame (s, n, t)."""
     found = np.zeros((FACES, 3, 3))
     for f in range(FACES):
@@ -70,14 +70,14 @@ def cone_pocket_data(
         ),
     }  # fmt: skip
     return pocket_arrays(
-        interface, modes, _on_faces(walls, interface.stations), _on_faces(walls, at), contacts,
+        interface, modes, on_faces(walls, interface.stations), on_faces(walls, at), contacts,
         b.element_azimuths, **known,
     )  # fmt: skip
 
 
-def _on_faces(walls: PocketWalls, places: np.ndarray) -> np.ndarray:
+def on_faces(walls: PocketWalls, places: np.ndarray) -> np.ndarray:
     """Places (4, n) along the roller's axis, or round the cage, as places along the faces [m]."""
-    own, found = _own_axes(walls), places.copy()
+    own, found = own_axes(walls), places.copy()
     for f in range(SIDES):
         sunk = (walls.middle[f] @ walls.normal[f]) * walls.normal[f, 0]
         found[f] = (places[f] - sunk) / own[f, 0, 0]

@@ -39,29 +39,28 @@ def cone_pockets(t, y, yd, d, law, out, mode):
     Rc, Vc = array_from(y, at.cage_q), array_from(y, at.cage_u)
     for i in range(at.elements):
         take_pose(work.poses[i], fields(d.pose))
-        _pocket(i, q[of_element(i)], Rc, Vc, modes, d, law, mode)
-        if mode >= REPORT:
-            _approach(i, d)
+        cage = Rc, Vc, modes
+        in_pocket(i, q[of_element(i)], cage, fields(d.frames), d, law, mode)
 
 
 @part
-def _pocket(i, qi, Rc, Vc, modes, d, law, mode):
-    """Roller i in its pocket; the cage is at Rc and moves as Vc."""
+def in_pocket(i, qi, cage, frames, d, law, mode):
+    """Roller i, whose pose is taken, in its pocket, whose faces are as ``frames`` have it; the
+    ``cage`` is at Rc, moves as Vc and has modes."""
+    Rc, Vc, modes = cage
     pose, pair, pw, work = fields(d.pose), fields(d.pair), fields(d.pocket_work), fields(d.scratch)
-    data, memory, frames = fields(d.pocket), fields(d.memory), fields(d.frames)
+    data, memory = fields(d.pocket), fields(d.memory)
     F, A, vec, sums, at = pose.F, work.A, work.vec, work.sums, fields(d.places)
     D, Vr, wr = vec[LEVER], vec[PARTNER_V], vec[PARTNER_W]
     put(D, plus((0.0, qi[1], 0.0), turned(F, (qi[0] - Rc[0], -Rc[1], -Rc[2]))))
     set_pocket_axes(data.azimuth[i], A, F, pw)
     put(Vr, turned(F, xyz(Vc)))
     put(wr, turned(F, xyz(vec[CAGE_SPIN])))
-    roller = RollerInPocket(
-        pose, fields(d.inner).whole, D, memory.pocket[i], memory.deflection[i]
-    )  # fmt: skip
-    cage = CageAtRoller(Vr, wr, modes)
+    roller = RollerInPocket(pose, frames.whole, D, memory.pocket[i], memory.deflection[i])
+    there = CageAtRoller(Vr, wr, modes)
     laws = PocketLaws(law[POCKET_LAW], law[SIDE_LAW], law[POCKET_RUBS], law[SIDE_RUBS])
     sl = fields(d.slices).row[0]
-    hit = cone_pocket_contact(i, roller, cage, (data, frames), laws, sl, pw, pair, mode, sums)
+    hit = cone_pocket_contact(i, roller, there, (data, frames), laws, sl, pw, pair, mode, sums)
     if hit:
         push_pair(i, pair.wrench, A, xyz(D), at.cage_b, d)
         push_modes(data, i, pw, work.border[modes_at(at.cage_b + RIGID, at.modes)])
@@ -71,15 +70,16 @@ def _pocket(i, qi, Rc, Vc, modes, d, law, mode):
         report_pocket(i, hit, sums, pw, fields(d.report), mode)
         if hit:
             stations_in_pocket_axes(frames, pw.st, fields(d.report).station[i])
+        _approach(i, frames, d)
 
 
 @part
-def _approach(i, d):
+def _approach(i, frames, d):
     """Approach speed of roller i at each wall of its pocket, at its centre."""
     vec, pw, rep = fields(d.scratch).vec, fields(d.pocket_work), fields(d.report)
     cage = plus(xyz(vec[PARTNER_V]), cross(xyz(vec[PARTNER_W]), xyz(vec[LEVER])))
     v = minus(xyz(fields(d.pose).V), cage)
     for f in range(FACES):
-        set_face(fields(d.frames), f, pw)
+        set_face(frames, f, pw)
         sgn = 1.0 if f % 2 == 0 else -1.0
         rep.approach[i, POCKET + f] = sgn * dot(row(pw.G, 2 if f < SIDES else 0), v)

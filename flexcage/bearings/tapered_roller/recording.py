@@ -8,10 +8,11 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from flexcage.bearings.cylindrical_roller.recording import RECORDING as OF_ROLLERS
-from flexcage.bearings.cylindrical_roller.recording import on_races
+from flexcage.bearings.cylindrical_roller.recording import on_races, spot_directions
 from flexcage.bearings.tapered_roller.model import TaperedModel
 from flexcage.contacts.cone import ConeSide
-from flexcage.contacts.pocket_wall import FACES, SIDES
+from flexcage.contacts.cone_pocket import FaceFrames
+from flexcage.contacts.pocket_wall import FACES, SIDES, PocketData
 from flexcage.integrate.recording import Recording
 from flexcage.system.layout import Layout
 from flexcage.system.problem import BearingSystem
@@ -21,6 +22,7 @@ def _variables(bearing: BearingSystem, y: np.ndarray) -> dict[str, np.ndarray]:
     return {
         **on_races(bearing, y),
         "rib_force": bearing.data.samples.rib[: len(y)],
+        **spot_directions(bearing.data.model, bearing.layout.q(y)["elements"]),
     }
 
 
@@ -34,7 +36,7 @@ def overlaps(model: TaperedModel, layout: Layout, y: np.ndarray) -> np.ndarray:
     in_outer = at - q["outer"][:, None, :3]
     end = model.end
     if layout.has_cage:
-        others = _in_walls(model, q, at)
+        others = in_walls(model.pocket, model.frames, in_cage(q, at))
     else:
         away = np.linalg.norm(np.roll(at, -1, axis=1) - at, axis=-1)
         others = [2.0 * model.inner.whole - away]
@@ -56,19 +58,25 @@ def _in_race(side: ConeSide, at: np.ndarray) -> np.ndarray:
     return side.whole - side.sign * gap
 
 
-def _in_walls(model: TaperedModel, q: dict[str, np.ndarray], at: np.ndarray) -> list[np.ndarray]:
-    """Depths (n, Z) of rollers at places (n, Z, 3) in the four faces of their pockets, where those
-    are widest."""
-    pocket, frames, (cos, sin) = model.pocket, model.frames, model.pocket.azimuth.T
+def in_cage(q: dict[str, np.ndarray], at: np.ndarray) -> np.ndarray:
+    """Places (n, Z, 3) in space as the cage sees them."""
     turn = Rotation.from_quat(q["quaternion"], scalar_first=True).as_matrix()
-    seen = np.einsum("nzc,ncd->nzd", at - q["cage"][:, None], turn)
+    found: np.ndarray = np.einsum("nzc,ncd->nzd", at - q["cage"][:, None], turn)
+    return found
+
+
+def in_walls(pocket: PocketData, frames: FaceFrames, seen: np.ndarray) -> list[np.ndarray]:
+    """Depths (n, Z) of rollers at places (n, Z, 3) in the cage in the four faces of their pockets,
+    where those are widest; with axes s along these."""
+    cos, sin = pocket.azimuth.T
     out = seen[..., 1] * cos + seen[..., 2] * sin - frames.origin
-    place = np.stack([seen[..., 0], out, seen[..., 2] * cos - seen[..., 1] * sin], axis=-1)
+    across = seen[..., 2] * cos - seen[..., 1] * sin
+    place = np.stack([seen[..., 0] - pocket.place, out, across], axis=-1)
     found = []
     for f in range(FACES):
         sgn, side = (1.0 if f % 2 == 0 else -1.0), f >= SIDES
         reach = sgn * place @ frames.axes[f, 0 if side else 2]
-        reach += pocket.half_roller + sgn * pocket.middle if side else model.inner.whole
+        reach += pocket.half_roller + sgn * pocket.middle if side else frames.whole
         widest = np.maximum(pocket.offset[:, f].max(axis=1), 0.0)
         found.append(reach - pocket.half[int(side)] - widest)
     return found
@@ -76,5 +84,5 @@ def _in_walls(model: TaperedModel, q: dict[str, np.ndarray], at: np.ndarray) -> 
 
 _ROLLERS: Any = OF_ROLLERS
 RECORDING: Recording[Any] = Recording(
-    coords=_ROLLERS.coords, variables=_variables, overlaps=overlaps
+    coords=_ROLLERS.coords, variables=_variables, overlaps=overlaps, spots=_ROLLERS.spots
 )

@@ -37,7 +37,7 @@ from flexcage.contacts.evaluation import (
 )
 from flexcage.contacts.race import race_forces
 from flexcage.contacts.slices import Laws
-from flexcage.contacts.state import CENTRE, take_pose
+from flexcage.contacts.state import CENTRE, Q_SPIN, take_pose
 from flexcage.core.jit import fields, outlined, part
 from flexcage.core.vectors import TURN, dot, row, turned, xyz
 from flexcage.system.data import (
@@ -71,7 +71,7 @@ def evaluate(t, y, yd, d, law, out, mode):
         return
     law[POCKETS](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
     if mode == TANGENT:
-        _along_axes(d)
+        along_axes(d)
     roller_rows(y, yd, d, out, mode)
     law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
 
@@ -80,7 +80,7 @@ def evaluate(t, y, yd, d, law, out, mode):
 def _on_cone(span, q, ring, side, race, d, law, mode):
     """Rollers span[0] to before span[1] on the race ``side`` of a ring, and on the inner's rib."""
     pose, pair, work, rw = fields(d.pose), fields(d.pair), fields(d.scratch), fields(d.race_work)
-    memory, count = fields(d.memory).race, 0
+    memory, turn, count = fields(d.memory).race, ring.q[Q_SPIN], 0
     for i in range(span[0], span[1]):
         take_pose(work.poses[i], pose)
         at = rw.partner[count]
@@ -89,14 +89,14 @@ def _on_cone(span, q, ring, side, race, d, law, mode):
             _on_rib(i, at, ring.b, d, law, mode)
         if mode >= REPORT:
             _approach(i, race, ring, side, d)
-        if cone_penetrations(count, pose, side, memory[i, race], rw):
+        if cone_penetrations(count, pose, side, turn, memory[i, race], rw):
             rw.who[count] = i
             count += 1
     race_forces(count, side, Laws(law[RACE_LAW], law[RACE_RUBS]), rw)
     for m in range(count):
         i = rw.who[m]
         take_pose(work.poses[i], pose)
-        cone_wrench(m, pose, side, rw, pair, mode, work.sums)
+        cone_wrench(m, pose, side, turn, rw, pair, mode, work.sums)
         add_to_ring(i, rw.partner[m, CENTRE], ring.b, d, mode)
         if mode >= REPORT:
             report_race(i, race, work.sums, fields(d.report))
@@ -131,7 +131,7 @@ def _approach(i, race, ring, side, d):
 
 
 @outlined
-def _along_axes(d):
+def along_axes(d):
     """Turn what contacts have added to the tangent into the axes of the rollers' rotations, which
     are not those of the orbital frames."""
     tan, poses = fields(d.tangent), fields(d.scratch).poses

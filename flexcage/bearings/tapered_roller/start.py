@@ -2,16 +2,29 @@
 
 The static solution places ring and rollers without friction, centrifugal forces and gyroscopic
 moments included; rollers that bear nothing on the inner race lie on the outer one and on the rib.
+It is linear in displacements and leaves out skew: so Newton's method then brings rollers and rings
+to equilibrium where they truly touch, still without friction, which holds rollers along the orbit.
 All orbit and turn as cones with one apex do in pure rolling; the cage goes round with them, its
 pockets' middles where the rollers' are, and its modes where rotation holds them.
 """
 
 from __future__ import annotations
 
+from copy import copy
 from math import cos, pi, sin
 
 import numpy as np
 
+from flexcage.bearings.cylindrical_roller.frictionless import (
+    Frictionless,
+    HeldMotions,
+    Roll,
+    advance_y,
+    equilibrate,
+    has_pits,
+    stop_cage,
+    without_pits,
+)
 from flexcage.bearings.tapered_roller.bearing import TaperedRollerBearing
 from flexcage.bearings.tapered_roller.model import TaperedModel
 from flexcage.bearings.tapered_roller.statics import TaperedRollers, meeting
@@ -24,6 +37,8 @@ from flexcage.system.statics.equilibrium import Problem, nearest, settle
 from flexcage.system.statics.slices import rolling_of
 from flexcage.system.statics.solution import StaticSolution
 
+_BALANCED = 1e-3  # of the load: what may stay unbalanced without a word
+
 
 def tapered_start(
     bearing: BearingSystem, *, limit_force: float, statics: StaticStart | None, advance: Advance
@@ -32,14 +47,59 @@ def tapered_start(
     assert statics is not None, "tapered rollers start at their static solution"
     assert isinstance(bearing.spec, TaperedRollerBearing)
     solution, spec = statics(), bearing.spec
-    y = placed(bearing, spec, solution)
     model, layout = bearing.data.model, bearing.layout
-    yd = rolling_cones(model, layout, spec, y)
+
+    def rolling(y: np.ndarray) -> np.ndarray:
+        return rolling_cones(model, layout, spec, y)
+
+    y, residual = _balanced(bearing, placed(bearing, spec, solution), rolling)
+    yd = rolling(y)
     if layout.modes:
         spin = float(layout.u(y)["omega"][0])
         layout.q(y)["modes"][:] = strained_by_rotation(model.cage, spin)
     station = np.zeros_like(bearing.data.work.report.station)
-    return Start(y, yd, (), 0.0, solution.unbalanced, station, solution.warnings)
+    return Start(y, yd, (), 0.0, residual, station, (*solution.warnings, *said_of(residual)))
+
+
+def _balanced(bearing: BearingSystem, y: np.ndarray, rolling: Roll) -> tuple[np.ndarray, float]:
+    """``balanced``, and where nothing is on spalls or on spots of rollers, on even ones."""
+    found, residual = balanced(bearing, y, rolling, skews=True)
+    if residual < _BALANCED or not has_pits(bearing.data.model):
+        return found, residual
+    even = copy(bearing)
+    even.data = bearing.data._replace(model=without_pits(bearing.data.model))
+    return balanced(even, y, rolling, skews=True)
+
+
+def balanced(
+    bearing: BearingSystem, y: np.ndarray, rolling: Roll, *, skews: bool
+) -> tuple[np.ndarray, float]:
+    """y with rollers and rings in equilibrium, without friction, at the velocities of pure
+    ``rolling``; what is left unbalanced, as a share of the load. Friction holds rollers along the
+    orbit and in spin, and unless it ``skews``, in skew."""
+    model, layout = bearing.data.model, bearing.layout
+    system, found = Frictionless(bearing, model.pocket.offset), y.copy()
+    along = np.zeros((layout.elements, 6), bool)
+    along[:, 2 : 4 if skews else 5] = True
+    held = HeldMotions(along, np.full(6, layout.has_cage))
+
+    def roll(y: np.ndarray) -> np.ndarray:
+        return stop_cage(layout, y, rolling(y))
+
+    residual = equilibrate(
+        system, found, roll(found), held, roll, lambda y, step: advance_y(system, y, step)
+    )
+    return found, residual
+
+
+def said_of(residual: float) -> tuple[str, ...]:
+    """A sentence on what is left unbalanced; none if it is little."""
+    if residual < _BALANCED:
+        return ()
+    return (
+        f"The run starts out of balance by {residual:.1%} of the load: no equilibrium of the "
+        "rollers was found near the static solution; leave out the run's beginning.",
+    )
 
 
 def settled_rollers(

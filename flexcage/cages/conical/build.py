@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from flexcage.cages.conical.cage import ConicalCage
 from flexcage.cages.conical.sector import mesh_conical_half
+from flexcage.cages.conical.shape import ConeShaped
 from flexcage.cages.window.build import build_windows
 from flexcage.cages.window.defects import WindowDefect
 from flexcage.mesh.cage_mesh import CageMesh
@@ -17,7 +17,7 @@ from flexcage.modes.pockets import FaceAxes, with_face_axes
 
 
 def build_conical_mesh(
-    cage: ConicalCage,
+    cage: ConeShaped,
     pocket_count: int,
     pitch_diameter: float,
     defects: Sequence[WindowDefect],
@@ -30,7 +30,7 @@ def build_conical_mesh(
     return replace(mesh, info=with_face_axes(mesh.info, _face_axes(cage)))
 
 
-def _face_axes(cage: ConicalCage) -> FaceAxes:
+def _face_axes(cage: ConeShaped) -> FaceAxes:
     """How the faces of a pocket lie in its frame (x, r, psi)."""
     along = cage.axes[[0, 0, 2, 2]]
     middle = np.array([0.0, 0.5 * cage.pitch_diameter, 0.0])

@@ -25,7 +25,7 @@ def impossible(cage: Any, pocket_count: int) -> Iterator[Objection]:
         yield "flank_angle", "so the bars' faces meet within the wall; make it smaller"
     if (bar := cage.thinnest_bar(pocket_count)) <= 0.0:
         yield (
-            "pocket_width_small",
+            cage.widths[0],
             f"makes the {pocket_count} crossbeams thinner than zero, {mm(bar)}, at an end; "
             "make pockets narrower or the offset greater",
         )

@@ -2,7 +2,7 @@
 
 Stations on the bars' faces count along the roller's axis, those on the ends' along the tangent.
 Displacements have components (x, r, psi), as of all cages; ``PocketWalls.normal`` turned by
-``ConicalCage.axes`` are the faces' normals in these. Offsets are along the normals.
+``ConeShaped.axes`` are the faces' normals in these. Offsets are along the normals.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from flexcage.cages.conical.cage import ConicalCage
+from flexcage.cages.conical.shape import ConeShaped
 from flexcage.cages.window.defects import WindowDefect
 from flexcage.cages.window.interface import (
     face_offsets,
@@ -33,7 +33,7 @@ class ConicalInterface(CageInterface):
 
 
 def rigid_conical_interface(
-    cage: ConicalCage, *, pocket_count: int, defects: Sequence[WindowDefect] = ()
+    cage: ConeShaped, *, pocket_count: int, defects: Sequence[WindowDefect] = ()
 ) -> ConicalInterface:
     """Interface of a rigid cage: no modes, no compliance, no mesh; defects in the offsets."""
     made = rigid_interface(cage, pocket_count=pocket_count, defects=defects)
@@ -45,7 +45,7 @@ def _reduced(cage: CageReduction) -> ConicalInterface:
 
 
 def _depends_on(
-    cage: ConicalCage, defects: Sequence[WindowDefect], pocket_count: int
+    cage: ConeShaped, defects: Sequence[WindowDefect], pocket_count: int
 ) -> tuple[Any, ...]:
     points = offset_points(cage)
     offsets = face_offsets(cage, points, pocket_count=pocket_count, defects=defects)
@@ -53,6 +53,6 @@ def _depends_on(
     return pocket, cage.axes, cage.face_normals, cage.wall, offsets
 
 
-CONICAL_INTERFACES: Interfaces[ConicalCage] = Interfaces(
+CONICAL_INTERFACES: Interfaces[ConeShaped] = Interfaces(
     kind=ConicalInterface, rigid=rigid_conical_interface, reduced=_reduced, depends_on=_depends_on
 )

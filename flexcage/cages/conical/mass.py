@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from flexcage.cages.conical.cage import ConicalCage
+from flexcage.cages.conical.shape import ConeShaped
 
 _ORDER = 12
 
@@ -27,7 +27,7 @@ class Mass(NamedTuple):
     transverse: float
 
 
-def mass_of(cage: ConicalCage, pocket_count: int) -> Mass:
+def mass_of(cage: ConeShaped, pocket_count: int) -> Mass:
     """Of a sound cage."""
     places, weights = _wall(cage)
     window, cut = _window(cage)
@@ -50,16 +50,19 @@ def _gauss(low: float, high: float) -> tuple[np.ndarray, np.ndarray]:
     return low + half * (1.0 + u), half * w
 
 
-def _wall(cage: ConicalCage) -> tuple[np.ndarray, np.ndarray]:
+def _wall(cage: ConeShaped) -> tuple[np.ndarray, np.ndarray]:
     """Places (n, 2), x and r, and volumes (n,) of the wall without pockets."""
     at = cage.section
-    (s, ws), (n, wn) = _gauss(at.large, at.small), _gauss(at.inside, at.outside)
-    s, n = (a.ravel() for a in np.meshgrid(s, n, indexing="ij"))
-    r = cage.radius(s, n)
-    return np.stack([cage.axial(s, n), r], axis=1), 2.0 * pi * r * np.outer(ws, wn).ravel()
+    (u, wu), (n, wn) = _gauss(0.0, 1.0), _gauss(at.inside, at.outside)
+    large = cage.large_end(n)
+    s = large + np.multiply.outer(u, at.small - large)
+    n = np.broadcast_to(n, s.shape)
+    r, areas = cage.radius(s, n), np.outer(wu, wn * (at.small - large))
+    places = np.stack([cage.axial(s, n), r], axis=-1).reshape(-1, 2)
+    return places, (2.0 * pi * r * areas).ravel()
 
 
-def _window(cage: ConicalCage) -> tuple[np.ndarray, np.ndarray]:
+def _window(cage: ConeShaped) -> tuple[np.ndarray, np.ndarray]:
     """The same of one pocket. At (s, u), with u from -1 to 1 between the bars' faces, it reaches
     from one cone to the other."""
     at, half = cage.section, 0.5 * cage.pocket_length
@@ -76,7 +79,7 @@ def _window(cage: ConicalCage) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _between_planes(
-    cage: ConicalCage, s: np.ndarray, u: np.ndarray, b: np.ndarray
+    cage: ConeShaped, s: np.ndarray, u: np.ndarray, b: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Places (n, 2), x and r, on cones at heights b of the wall, and volumes per ds du db."""
     sine, cosine, slope = np.sin(cage.cone_angle), np.cos(cage.cone_angle), tan(cage.flank_angle)
@@ -95,7 +98,7 @@ def _between_planes(
     return np.stack([cage.axial(s, n), r], axis=1), half / rise
 
 
-def _corners(cage: ConicalCage) -> tuple[np.ndarray, np.ndarray]:
+def _corners(cage: ConeShaped) -> tuple[np.ndarray, np.ndarray]:
     """Places (4, 2), x and r, and volumes (4,) of what fillets leave in the corners."""
     half, rho = 0.5 * cage.pocket_length, cage.fillet_radius
     tilt = asin(cage.face_normals[0, 0])

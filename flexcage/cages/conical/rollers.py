@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from math import cos, hypot
 from typing import Any, Protocol
 
@@ -11,29 +11,41 @@ from flexcage.geometry.cage import HeldElements, Objection
 
 # assumption: how far angle and pitch diameter of a cage may be from the rollers': 1 um over the
 # half length of a roller of 10 mm, and 10 um, below what it notices within its clearances
-_ANGLE_OFF, _PITCH_OFF = 2e-4, 20e-6
+ANGLE_OFF, PITCH_OFF = 2e-4, 20e-6
 
 
-class Frustum(Protocol):
+class Revolved(Protocol):
+    """A roller: its radius [m] at a place [m] along it."""
+
+    def radius(self, x: float) -> float: ...
+
+
+class Frustum(Revolved, Protocol):
     """A roller as a truncated cone."""
 
     @property
     def ends(self) -> tuple[float, float]: ...
-    def radius(self, x: float) -> float: ...
 
 
-class TaperedRollers(HeldElements, Protocol):
-    """What a conical cage asks of its bearing."""
+class InclinedRollers(HeldElements, Protocol):
+    """What a cage with a wall about a cone asks of its bearing."""
 
     @property
     def axis_angle(self) -> float: ...
+    @property
+    def roller(self) -> Any: ...
+
+
+class TaperedRollers(InclinedRollers, Protocol):
+    """What a conical cage asks of its bearing."""
+
     @property
     def rib_height(self) -> float: ...
     @property
     def roller(self) -> Frustum: ...
 
 
-def clearance_around(cage: Any, roller: Frustum, s: float) -> float:
+def clearance_around(cage: Any, roller: Revolved, s: float) -> float:
     """How far [m] a roller in the middle of its pocket is from both bars together, measured across
     its axis, at a place s [m] along it."""
     return 2.0 * (cage.nearest(s)[2] - roller.radius(s))
@@ -42,24 +54,25 @@ def clearance_around(cage: Any, roller: Frustum, s: float) -> float:
 def obstructions(cage: Any, bearing: HeldElements) -> Iterator[Objection]:
     """What leaves no room in the cage for the rollers, or for itself between the rings."""
     rollers: TaperedRollers = bearing  # type: ignore[assignment]
-    yield from _off_axes(cage, rollers)
-    yield from _tight(cage, rollers)
-    yield from _edges_in_fillets(cage, rollers)
+    yield from off_axes(cage, rollers)
+    yield from tight(cage, rollers, {"pocket_width_large": -0.5, "pocket_width_small": 0.5})
+    yield from edges_in_fillets(cage, rollers)
     yield from _between_races(cage, rollers)
 
 
-def _off_axes(cage: Any, b: TaperedRollers) -> Iterator[Objection]:
+def off_axes(cage: Any, b: InclinedRollers) -> Iterator[Objection]:
     """Pockets that do not lie along the rollers."""
     for name, own, theirs, unit, most in (
-        ("cone_angle", cage.cone_angle, b.axis_angle, "deg", _ANGLE_OFF),
-        ("pitch_diameter", cage.pitch_diameter, b.pitch_diameter, "mm", _PITCH_OFF),
+        ("cone_angle", cage.cone_angle, b.axis_angle, "deg", ANGLE_OFF),
+        ("pitch_diameter", cage.pitch_diameter, b.pitch_diameter, "mm", PITCH_OFF),
     ):
         if abs(own - theirs) > most:
             yield name, f"but the rollers' axes have {describe(theirs, unit)}; give that"
 
 
-def _tight(cage: Any, b: TaperedRollers) -> Iterator[Objection]:
-    """Pockets that rollers do not go into."""
+def tight(cage: Any, b: InclinedRollers, ends: Mapping[str, float]) -> Iterator[Objection]:
+    """Pockets that rollers do not go into; ``ends``: keys of widths, and where along a roller, over
+    its length, these count."""
     along = cage.pocket_length - b.element_length
     if along <= 0.0:
         yield (
@@ -67,7 +80,7 @@ def _tight(cage: Any, b: TaperedRollers) -> Iterator[Objection]:
             f"a clearance of {mm(along)}; it must be greater than the {b.element}'s length, "
             f"{mm(b.element_length)}",
         )
-    for name, s in (("pocket_width_large", -0.5), ("pocket_width_small", 0.5)):
+    for name, s in ends.items():
         gap = clearance_around(cage, b.roller, s * b.element_length)
         if gap <= 0.0:
             least = getattr(cage, name) - gap / cos(cage.flank_angle)
@@ -80,7 +93,7 @@ def _tight(cage: Any, b: TaperedRollers) -> Iterator[Objection]:
             )
 
 
-def _edges_in_fillets(cage: Any, b: TaperedRollers) -> Iterator[Objection]:
+def edges_in_fillets(cage: Any, b: InclinedRollers) -> Iterator[Objection]:
     edge, radius = b.element_edge, cage.fillet_radius
     along = radius - edge - 0.5 * (cage.pocket_length - b.element_length)
     for s in (-0.5 * b.element_length, 0.5 * b.element_length):

@@ -12,10 +12,11 @@ from typing import Any
 
 import numpy as np
 
-from flexcage.cages.conical.cage import ConicalCage
+from flexcage.cages.conical.shape import ConeShaped
 from flexcage.cages.conical.walls import pocket_walls
 from flexcage.core.errors import RunFailed
 from flexcage.mesh.gmsh_session import gmsh_model
+from flexcage.mesh.joint import set_joint, spread_evenly
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.sector import (
     MM,
@@ -42,7 +43,7 @@ _POCKET = ("beam", "side+x", "side-x")
 _FILLET, _MIDDLE = "fillet", "middle"
 
 
-def conical_size_plan(cage: ConicalCage, options: MeshOptions) -> SizePlan:
+def conical_size_plan(cage: ConeShaped, options: MeshOptions) -> SizePlan:
     """Sizes that a named fineness, or the user's own, mean on this cage."""
     far, near, growth, arcs = _NAMED[options.fineness]
     size = options.size or far * cage.thickness
@@ -54,12 +55,14 @@ def conical_size_plan(cage: ConicalCage, options: MeshOptions) -> SizePlan:
     return SizePlan(size, near_fillet, growth, arcs, across, 1.0)
 
 
-def mesh_conical_half(cage: ConicalCage, *, pocket_count: int, options: MeshOptions) -> Quarter:
+def mesh_conical_half(cage: ConeShaped, *, pocket_count: int, options: MeshOptions) -> Quarter:
     """Mesh the half sector; lengths go to gmsh in mm, where OpenCASCADE's tolerances fit."""
     plan = conical_size_plan(cage, options)
     with gmsh_model("flexcage half sector of a conical cage") as gmsh:
         fillets = _shape(gmsh, cage, pocket_count)
         _set_sizes(gmsh, plan, fillets)
+        if options.joint:
+            set_joint(gmsh, plan, cage.ends[0])
         generate(gmsh, plan)
         points, tets, faces = mesh_arrays(gmsh)
     surfaces = named_surfaces(
@@ -67,16 +70,18 @@ def mesh_conical_half(cage: ConicalCage, *, pocket_count: int, options: MeshOpti
         (*_RING, *_POCKET, _FILLET, _MIDDLE),
     )  # fmt: skip
     del surfaces[_MIDDLE]
+    if options.joint:
+        points = spread_evenly(points, np.unique(surfaces["end-x"]), pocket_count)
     points[np.unique(surfaces["cut_z"]), 2] = 0.0  # exact, so that mirror images coincide
     return Quarter(points, tets, surfaces, plan)
 
 
-def _shape(gmsh: Any, cage: ConicalCage, pocket_count: int) -> list[int]:
+def _shape(gmsh: Any, cage: ConeShaped, pocket_count: int) -> list[int]:
     """The half sector in (x, y, z) [mm]; tags of its fillets."""
     occ, at, step = gmsh.model.occ, cage.section, pi / pocket_count
     corners = (
-        (at.large, at.inside), (at.small, at.inside), (at.small, at.outside),
-        (at.large, at.outside),
+        (cage.large_end(at.inside), at.inside), (at.small, at.inside), (at.small, at.outside),
+        (cage.large_end(at.outside), at.outside),
     )  # fmt: skip
     points = [_point(occ, cage, s, n, 0.0) for s, n in corners]
     section = _face(occ, points)
@@ -92,7 +97,7 @@ def _shape(gmsh: Any, cage: ConicalCage, pocket_count: int) -> list[int]:
     return _fillet_surfaces(gmsh)
 
 
-def _point(occ: Any, cage: ConicalCage, s: float, n: float, t: float) -> int:
+def _point(occ: Any, cage: ConeShaped, s: float, n: float, t: float) -> int:
     return int(occ.addPoint(cage.axial(s, n) / MM, cage.radius(s, n) / MM, t / MM))
 
 
@@ -101,7 +106,7 @@ def _face(occ: Any, points: list[int]) -> int:
     return int(occ.addPlaneSurface([occ.addCurveLoop(lines)]))
 
 
-def _window(gmsh: Any, cage: ConicalCage) -> list[tuple[int, int]]:
+def _window(gmsh: Any, cage: ConeShaped) -> list[tuple[int, int]]:
     """The solid that a pocket takes away, from beyond its middle plane to the bar, with rounded
     corners; it reaches through the wall, whose cones are lower beside the middle plane."""
     occ, at, half = gmsh.model.occ, cage.section, 0.5 * cage.pocket_length
@@ -149,7 +154,7 @@ def _set_sizes(gmsh: Any, plan: SizePlan, fillets: list[int]) -> None:
     grow_from(gmsh, distance, plan)
 
 
-def _surface_name(points: np.ndarray, cage: ConicalCage, pocket_count: int) -> str:
+def _surface_name(points: np.ndarray, cage: ConeShaped, pocket_count: int) -> str:
     """Which surface of the half sector all these points lie on; fillets lie on no other."""
     at, walls = cage.section, pocket_walls(cage)
     a, b = cage.in_section(points).T
@@ -157,7 +162,7 @@ def _surface_name(points: np.ndarray, cage: ConicalCage, pocket_count: int) -> s
     local = cage.in_pocket(points, 0, pocket_count)
     ring = (
         points[:, 2], cage.mean_radius * (azimuth - pi / pocket_count), b - at.inside,
-        b - at.outside, a - at.small, a - at.large,
+        b - at.outside, a - at.small, cage.from_large_end(points),
     )  # fmt: skip
     pocket = [(local - walls.middle[k]) @ walls.normal[k] for k in (0, 2, 3)]
     for name, distance in zip((*_RING, *_POCKET, _MIDDLE), (*ring, *pocket, a)):

@@ -2,8 +2,8 @@
 
 A pocket's frame has the axes s (along the roller's axis, towards the apex at +x), n (across it,
 outwards) and t (towards larger azimuth), and its origin in the pocket's middle: on the pitch
-circle, in the plane x = 0 of the cage, at azimuth 2 pi k/Z (``ConicalCage.pocket_frame``,
-``ConicalCage.in_pocket``).
+circle, in the plane x = 0 of the cage, at azimuth 2 pi k/Z (``ConeShaped.pocket_frame``,
+``ConeShaped.in_pocket``).
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from flexcage.cages.conical.cage import ConicalCage
+from flexcage.cages.conical.shape import ConeShaped
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class PocketWalls:
     into the cage, and ``middle`` lies in the face's middle. ``along`` is the
     direction in which a face's stations count, s or t, and ``reach`` half its length in it, from
     corner to corner. The bars' faces begin and end at the heights ``inside`` and ``outside`` n,
-    halfway along the pocket (elsewhere: ``ConicalCage.face_heights``).
+    halfway along the pocket (elsewhere: ``ConeShaped.face_heights``).
     """
 
     middle: np.ndarray  # (4, 3)
@@ -34,7 +34,7 @@ class PocketWalls:
     outside: float
 
 
-def pocket_walls(cage: ConicalCage) -> PocketWalls:
+def pocket_walls(cage: ConeShaped) -> PocketWalls:
     """The walls of a sound pocket; those of all pockets are alike."""
     half = 0.5 * cage.pocket_length
     n, w = cage.bar_height, 0.5 * cage.pocket_width

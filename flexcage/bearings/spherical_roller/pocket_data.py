@@ -1,0 +1,72 @@
+"""Pockets of a spherical roller bearing's cage as kernels read them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from flexcage.bearings.cylindrical_roller.model import laws_in_pockets, pocket_arrays, points_over
+from flexcage.bearings.spherical_roller.bearing import SphericalRollerBearing
+from flexcage.bearings.spherical_roller.statics import slice_places
+from flexcage.bearings.tapered_roller.pocket_data import no_frames, on_faces, own_axes
+from flexcage.bearings.two_rows import ROWS
+from flexcage.cages.conical.walls import pocket_walls
+from flexcage.contacts.cone_pocket import FaceFrames
+from flexcage.contacts.pocket_wall import SIDES, PocketData
+from flexcage.contacts.spec import Contacts
+from flexcage.modes.basis import CageInterface
+
+
+def row_frames(b: SphericalRollerBearing, cage: Any) -> tuple[FaceFrames, FaceFrames]:
+    """Axes of the faces of both rows, of which the one at -x is the mirror image of the other."""
+    if cage is None:
+        return no_frames(), no_frames()
+    own = own_axes(pocket_walls(cage)) @ cage.axes
+    first, second = (
+        FaceFrames(
+            axes=np.ascontiguousarray(own * (row.sense, 1.0, 1.0) * [[1.0], [row.sense], [1.0]]),
+            origin=0.5 * cage.pitch_diameter, whole=0.5 * b.roller_diameter, taper=0.0,
+        )
+        for row in b.row_places
+    )  # fmt: skip
+    return first, second
+
+
+def barrel_pocket_data(
+    b: SphericalRollerBearing, cage: Any, contacts: Contacts, interface: CageInterface
+) -> PocketData:
+    """Arrays of the pockets, as ``tapered_roller.pocket_data``, the row at -x first."""
+    interface = _in_both_rows(interface, b.roller_count)
+    walls, frames, half = pocket_walls(cage), row_frames(b, cage), 0.5 * b.roller_diameter
+    s, reach = b.roller.spheres(slice_places(b, contacts.pocket.slices))
+    points = points_over(cage.section.inside, cage.section.outside, b.roller_diameter)
+    modes = np.concatenate([
+        np.einsum("fab,zfsbm->zfsam", f.axes, own)
+        for f, own in zip(frames, np.split(interface.modes, ROWS))
+    ])  # fmt: skip
+    at = interface.stations if interface.offset_at is None else interface.offset_at
+    depth = (walls.middle * walls.normal).sum(axis=1)
+    known: dict[str, Any] = {
+        "place": np.repeat([row.place for row in b.row_places], b.roller_count),
+        "half": depth[[0, SIDES]], "s": s, "drop": half - reach, "points": points,
+        "half_roller": 0.5 * b.roller_length, "middle": 0.0,
+        "normal": laws_in_pockets(
+            b, cage, cage.bar_width(0.0, cage.bar_height, b.roller_count), len(points), contacts,
+            interface,
+        ),
+    }  # fmt: skip
+    return pocket_arrays(
+        interface, modes, on_faces(walls, interface.stations), on_faces(walls, at), contacts,
+        b.element_azimuths, **known,
+    )  # fmt: skip
+
+
+def _in_both_rows(interface: CageInterface, count: int) -> CageInterface:
+    """An interface of one row's pockets, ``count``, as one of both rows; else itself."""
+    if len(interface.offset) != count:
+        return interface
+    names = ("offset", "modes", "residual", "compliance")
+    twice: dict[str, Any] = {n: np.concatenate([getattr(interface, n)] * ROWS) for n in names}
+    return replace(interface, **twice)
