@@ -91,6 +91,11 @@ class Scene:
     rows: Sequence[Scene] = ()  # of each row with its cage, where each has one
 
     @property
+    def first(self) -> Scene:
+        """Itself, or of several rows with a cage each that at -x."""
+        return self.rows[0] if self.rows else self
+
+    @property
     def label(self) -> str:
         """Its name as headings show it."""
         return sheet.label(self.name)
@@ -143,7 +148,7 @@ def of_row(name: str, k: int) -> str:
     return f"{name}_row{k}"
 
 
-def _of_any(name: str) -> str:
+def of_any_row(name: str) -> str:
     """What such a picture is called in a run of one cage."""
     return re.sub(r"_row\d$", "", name)
 
@@ -159,12 +164,12 @@ _LOOKS = {
 def changed_by(look: Iterable[str], names: Sequence[str]) -> list[str]:
     """Those of ``names`` that change with these values of a ``Look``."""
     changed = {name for value in look for name in _LOOKS[value]}
-    return [name for name in names if _of_any(name) in changed]
+    return [name for name in names if of_any_row(name) in changed]
 
 
 def need_stress(only: Sequence[str]) -> bool:
     """Whether pictures of these names, or all without any, show a flexible cage's stress."""
-    return not only or not {_of_any(name) for name in only} <= set(_UNSTRESSED)
+    return not only or not {of_any_row(name) for name in only} <= set(_UNSTRESSED)
 
 
 def check_names(only: Sequence[str], known: Sequence[str]) -> None:
@@ -261,9 +266,8 @@ def _geometry(scene: Scene, look: Look) -> Iterator[Drawing]:
         yield Drawing("mesh", "png", partial(
             mesh_picture, scene.mesh, defects=scene.defects, azimuth=look.view, note=scene.label,
         ))  # fmt: skip
-    stressed = scene.rows[0] if scene.rows else scene
-    if stressed.stress is not None:
-        s, b = stressed.stress, stressed.stress.basis
+    if (s := scene.first.stress) is not None:
+        b = s.basis
         yield Drawing("modes", "png", partial(
             mode_sheet, s.nodes, s.cells, b.shapes, b.frequencies, b.kind, note=scene.label,
         ))  # fmt: skip

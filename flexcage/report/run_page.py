@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from flexcage.render.album import Scene
+from flexcage.render.album import Scene, of_any_row
 from flexcage.report.blocks import (
     Block,
     Charts,
@@ -178,16 +178,21 @@ def cage_stress(scene: Scene, stress: StressPictures, name: str = "") -> CageStr
 def _stress(account: RunAccount) -> list[PageSection]:
     from flexcage.render.stress_pictures import nice_scale
 
-    stress, mesh = account.scene.stress, account.scene.mesh
-    if mesh is None:
+    first, rows = account.scene.first, account.scene.rows
+    if first.mesh is None:
         return []
-    if stress is None:
+    if first.stress is None:
         none = Prose(["The cage of this run is rigid: it has no stress."])
         return [PageSection("Stress in the cage", [none])]
-    cage = cage_stress(account.scene, stress)
-    scale = nice_scale(cage.points, cage.displacement)
-    title = f"Equivalent stress at its peak, t = {stress.time * 1e3:.3f} ms"
-    blocks: list[Block] = [cage_chart([cage], scale=scale, title=title)]
+    cages = [
+        cage_stress(own, own.stress, f"Row {k}" if rows else "")
+        for k, own in enumerate(rows or (first,))
+        if own.stress is not None
+    ]
+    scale = min(nice_scale(cage.points, cage.displacement) for cage in cages)
+    when = ", ".join(f"{cage.time * 1e3:.3f}" for cage in cages)
+    title = f"Equivalent stress at its peak, t = {when} ms"
+    blocks: list[Block] = [cage_chart(cages, scale=scale, title=title)]
     pictures = _named(account, "stress_envelope")
     return [
         PageSection("Stress in the cage", [*blocks, *([Gallery(pictures)] if pictures else [])])
@@ -201,7 +206,11 @@ def _named(account: RunAccount, *names: str) -> list[Image]:
 
 def _caption(account: RunAccount, name: str) -> str:
     elements = f"{metrics.element(account.scene.dataset)}s"
-    return CAPTIONS[name].format(elements=elements) if name in CAPTIONS else name
+    own = of_any_row(name)
+    if own not in CAPTIONS:
+        return name
+    row = "" if own == name else f", row {name[-1]}"
+    return CAPTIONS[own].format(elements=elements) + row
 
 
 def _pictures(account: RunAccount) -> PageSection:

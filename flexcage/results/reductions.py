@@ -13,6 +13,7 @@ from scipy.special import stdtrit
 
 from flexcage.results import metrics
 from flexcage.results.bootstrap import CONFIDENCE
+from flexcage.results.each_cage import one_cage
 from flexcage.results.registry import TIME, Variable
 from flexcage.results.slip import BearingNumbers, element_slip_ratio
 from flexcage.results.statistics import Record, Windows
@@ -155,7 +156,7 @@ DERIVED: Mapping[str, Derived] = MappingProxyType(
                 "distance of the cage centre from its orbit's mean",
                 of_cage=True,
             ),
-            lambda ds, bearing: _over_time(metrics.whirl_radius(ds), ds),
+            lambda ds, bearing: _over_time(metrics.whirl_radius(one_cage(ds, 0)), ds),
         ),
         "cage_radial_displacement": Derived(
             Variable(
@@ -165,7 +166,7 @@ DERIVED: Mapping[str, Derived] = MappingProxyType(
                 "distance of the cage centre from the outer ring's axis",
                 of_cage=True,
             ),
-            lambda ds, bearing: _over_time(metrics.whirl_radius(ds, about="axis"), ds),
+            lambda ds, bearing: _over_time(metrics.whirl_radius(one_cage(ds, 0), about="axis"), ds),
         ),
     }
 )

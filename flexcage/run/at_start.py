@@ -15,8 +15,9 @@ from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.modes.reduction import CageReduction
 from flexcage.results.warnings import warnings_of
 from flexcage.results.warnings_at_start import AT_START, Setup, of_statics
+from flexcage.stress.mirrored import in_mirror
 from flexcage.stress.operators import von_mises
-from flexcage.stress.recovery import CageLoads
+from flexcage.stress.recovery import CageLoads, StressRecovery
 from flexcage.stress.run_stress import recovery_of
 from flexcage.system.begun import Start
 
@@ -62,10 +63,10 @@ def _assembly_stress(case: Case, cage: CageReduction | None, start: Start) -> li
     if cage is None or not start.pinched:
         return []
     recovery = recovery_of(cage, cage_type_of(case.its_cage).places())
-    loads = CageLoads(station_forces=start.station)
-    stress = von_mises(recovery.stress(recovery.displacement(loads), loads))
-    stress[recovery.contact_zone] = 0.0
-    peak, material = float(stress.max()), case.its_cage.material
+    pushed = np.split(start.station, case.cages)
+    pushed = [in_mirror(p, cage.interface.across) if k else p for k, p in enumerate(pushed)]
+    peak = max(_largest_under(recovery, stations) for stations in pushed)
+    material = case.its_cage.material
     text = f"Assembling the bearing stresses the cage to {peak / 1e6:.0f} MPa"
     limit = case.limits.stress
     if limit is not None and peak > limit:
@@ -79,3 +80,11 @@ def _assembly_stress(case: Case, cage: CageReduction | None, start: Start) -> li
         return []
     proof = f"the proof stress of {material.name} ({material.proof_stress / 1e6:.0f} MPa)"
     return [RunWarning("assembly_stress", f"{text}, more than {proof}: it would yield.")]
+
+
+def _largest_under(recovery: StressRecovery, stations: np.ndarray) -> float:
+    """Largest equivalent stress [Pa] of a cage under forces (Z, F, n_st, 3) on its stations."""
+    loads = CageLoads(station_forces=stations)
+    stress = von_mises(recovery.stress(recovery.displacement(loads), loads))
+    stress[recovery.contact_zone] = 0.0
+    return float(stress.max())

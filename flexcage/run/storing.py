@@ -105,12 +105,13 @@ def _cage_file(case: Case, mesh: CageMesh, reduction: CageReduction | None) -> C
     if reduction is None:
         return cage_file(cage_record(mesh, {}))
     large = case.output.keep_cage
+    modes = case.modes.damped_as(case.its_cage.warm_material)  # as in the run
 
     def make() -> dict[str, np.ndarray]:
-        body = flexible_from_reduction(reduction, case.modes).data._asdict()
+        body = flexible_from_reduction(reduction, modes).data._asdict()
         reduced = {**reduction.record(), "body": {k: np.asarray(v) for k, v in body.items()}}
         return vars(cage_file(cage_record(mesh, reduced, large=large)))
 
-    key = content_hash(FORMAT, reduction.content, BODY_VERSION, case.modes, large)
+    key = content_hash(FORMAT, reduction.content, BODY_VERSION, modes, large)
     kept = reduction.once(f"file {key}", lambda: cached_arrays("cage", key, make))
     return CageFile(str(kept["digest"]), kept["content"])

@@ -42,6 +42,7 @@ from flexcage.results.figures.table import FIGURES
 from flexcage.results.metrics import carrier_angle, settled, whole_revolutions
 from flexcage.results.reductions import DERIVED, REDUCTIONS
 from flexcage.results.registry import (
+    CAGES,
     ENERGIES,
     LABELS,
     NEIGHBOURS,
@@ -129,6 +130,8 @@ class Reduction:
                 )
             else:
                 array = array.isel({along: places[0] if ":" not in label else slice(*places)})
+        if CAGES in array.dims:  # of several cages that at -x, as in a summary
+            array = array.isel({CAGES: 0})
         values, t = array.transpose(dim, ...).values, array[dim].values
         step = float(t[-1] - t[0]) / (len(t) - 1)
         half, turns = nan, 1
@@ -143,7 +146,7 @@ class Reduction:
 
 def _fatigue(run: Run) -> dict[str, StudyFigure]:
     """Damage and life at the worst place."""
-    return _figures_in(DAMAGE.rows(run.fatigue().worst.rate))
+    return _figures_in(DAMAGE.rows(run.rows[0].fatigue().worst.rate))
 
 
 def _wear(run: Run) -> dict[str, StudyFigure]:
@@ -155,13 +158,13 @@ def _rivets(run: Run) -> dict[str, StudyFigure]:
     """The largest loads of rivets; none of a cage that has no stress or no rivets."""
     if not run.case.riveted:
         return {}
-    rows = RIVETS.rows(run.rivets)
+    rows = RIVETS.rows(run.rows[0].rivets)
     return _figures_in([*rows, *RIVETS_TIME.rows(run.stages)])
 
 
 def _stress(run: Run) -> dict[str, StudyFigure]:
     """Equivalent stress, which a case leaves out while no output of its study needs it."""
-    rows = stress_rows(run.cage_stress.figures)
+    rows = stress_rows(run.rows[0].cage_stress.figures)
     return _figures_in([*rows, *STRESS_TIME.rows(run.stages)])
 
 

@@ -84,6 +84,7 @@ def stress_of(
                 if not lacking:
                     raise
                 return [], f"No stress is shown: the cases need {uses(lacking)}."
+            scene = scene.first
             assert scene.stress is not None
             name = f"Point {row.planned.number}: {names[row.planned.number]}"
             cage = cage_stress(scene, scene.stress, name)

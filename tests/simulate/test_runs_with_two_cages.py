@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from simulate_cases import Interrupted
 
 from flexcage import load_case, load_run, simulate
 from flexcage.core.errors import InputError
@@ -122,6 +123,22 @@ def test_wear_is_that_of_all_pockets(stored):
 def test_what_cages_of_rows_cannot_be(cage, sections, said):
     with pytest.raises(InputError, match=said):
         simulate(case_of(cage, **sections), stress=False)
+
+
+@pytest.mark.parametrize("model", ["rigid", pytest.param("flexible", marks=pytest.mark.slow)])
+def test_a_resumed_run_of_two_cages_is_the_unbroken_one(tmp_path, model):
+    case = case_of({"model": model}, duration="2 ms", output={"block": 50})
+    whole = simulate(case, stress=False)
+    with pytest.raises(KeyboardInterrupt):
+        simulate(case, out=tmp_path, progress=Interrupted(1, 1e-3), stress=False)
+    resumed = simulate(case, out=tmp_path, resume=True, stress=False)
+    for name in ("cage_quaternion", "cage_position", "element_position", "pocket_force"):
+        a, b = whole.dataset[name].values, resumed.dataset[name].values
+        size = np.abs(a).max()
+        np.testing.assert_allclose(b, a, rtol=0.0, atol=3e-7 * size, err_msg=name)  # as stored
+    np.testing.assert_array_equal(
+        whole.dataset["cage_omega"].values, resumed.dataset["cage_omega"].values
+    )
 
 
 @pytest.mark.slow

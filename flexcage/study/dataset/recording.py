@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flexcage.case import Case
+from flexcage.results.each_cage import one_cage
 from flexcage.results.features import cage_motion_features, orbit_class
 from flexcage.results.figures.effort import is_wall_time
 from flexcage.results.frequencies import bearing_frequencies
@@ -127,6 +128,7 @@ def _truth(
         values = forces[name]
         found[f"{name}_mean"], found[f"{name}_max"] = float(values.mean()), float(values.max())
     if case.cage is not None:
+        part = one_cage(part, 0)  # of several cages that at -x, as in a summary
         features = cage_motion_features(part)
         found["whirl_speed_ratio"] = features.whirl_speed_ratio
         found["motion"] = _motion(features.whirl_speed_ratio)
@@ -174,6 +176,7 @@ def hidden(run: Run) -> dict[str, np.ndarray]:
         "defect_force": _at_fault(run.case, ds, race), "inner_speed": ds["inner_speed"].values,
     }  # fmt: skip
     if run.case.cage is not None:
+        ds = one_cage(ds, 0)
         found["cage_speed"] = ds["cage_omega"].sel(axis="x").values
         for axis in "yz":
             offset = ds["cage_position"].sel(axis=axis) - ds["outer_position"].sel(axis=axis)
