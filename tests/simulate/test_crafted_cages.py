@@ -125,5 +125,5 @@ def cases():
 def test_cages_of_all_kinds_have_the_sizes_that_are_asked_for(tmp_path):
     for name, case in cases():
         made = made_cage(case, Stages())
-        path = write_cage(tmp_path / f"{name}.zip", _cage_file(case, made))
+        path = write_cage(tmp_path / f"{name}.zip", _cage_file(case, *made))
         check_sizes(read_cage(path), case, made[1].basis.size if made[1] else 0, path)
