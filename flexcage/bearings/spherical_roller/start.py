@@ -17,13 +17,11 @@ from scipy.spatial.transform import Rotation
 
 from flexcage.bearings.spherical_roller.bearing import SphericalRollerBearing
 from flexcage.bearings.spherical_roller.model import SphericalModel
-from flexcage.bearings.spherical_roller.statics import Barrels, meeting
+from flexcage.bearings.spherical_roller.statics import barrel_rows, settled_in
 from flexcage.bearings.tapered_roller.start import balanced, said_of
-from flexcage.bearings.two_rows import rows_from
 from flexcage.contacts.laws import STIFFNESS
 from flexcage.system.begun import Advance, Start, StaticStart
 from flexcage.system.problem import BearingSystem
-from flexcage.system.statics.equilibrium import Problem, nearest, settle
 from flexcage.system.statics.slices import rolling_of
 from flexcage.system.statics.solution import StaticSolution
 
@@ -65,13 +63,8 @@ def settled_barrels(
     n, v = len(model.inner.s), np.zeros(5)
     v[:3] = turn.apply(solution.displacement[:3] - solution.outer[:3], inverse=True)
     stiffness = [model.inner.normal[STIFFNESS], model.outer.normal[STIFFNESS]]
-    rows = rows_from(spec, Barrels(
-        bearing=spec, meeting=meeting(spec, n), stiffness=np.repeat(stiffness, n),
-        rolling=rolling_of(spec, solution.speed, None), rating=spec.dynamic_rating,
-    ))  # fmt: skip
-    problem = Problem(rows, solution.load, np.zeros(5, bool), v, np.zeros(5))
-    at = problem.at_azimuths @ v
-    return settle(problem, at, nearest(problem, at, None, 0.0), 0.0)[0]
+    rows = barrel_rows(spec, np.repeat(stiffness, n), speed=solution.speed)
+    return settled_in(rows, v, solution.load)
 
 
 def barrels_in_space(
