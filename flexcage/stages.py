@@ -19,6 +19,7 @@ from flexcage.bearings import bending_of, motion_of, sections_of, statics_of
 from flexcage.bodies.cage import flexible_from_reduction, rigid_from_tets
 from flexcage.bodies.floating_frame import FlexibleBody
 from flexcage.cages.build import build_cage_mesh, reduce_cage, rigid_interface_of
+from flexcage.cages.halves import find_apart
 from flexcage.case.sections import (
     CageSections,
     LoadedSections,
@@ -29,13 +30,12 @@ from flexcage.case.sections import (
     RingSections,
     StartSections,
 )
-from flexcage.core.errors import InputError
 from flexcage.core.hashing import content_hash
 from flexcage.core.progress import Silent
 from flexcage.core.timing import Stages
+from flexcage.geometry.checks import raise_first
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.quality import check_mesh
-from flexcage.mesh.rows import in_rows
 from flexcage.modes.reduction import CageReduction
 from flexcage.modes.table import ModeTable
 from flexcage.system.begun import Start
@@ -74,8 +74,9 @@ def cage_mesh(specs: MeshSections) -> CageMesh:
     if at_hand is not None:
         return at_hand
     mesh = build_cage_mesh(**specs.cage_shape)
-    check_mesh(mesh, where=specs.mesh.file or "mesh")
-    return in_rows(mesh, specs.bearing.row_places)
+    if specs.bearing.row_count == 1:  # halves of a common cage were checked when they were made
+        check_mesh(mesh, where=specs.mesh.file or "mesh")
+    return mesh
 
 
 _mesh_at_hand: dict[str, CageMesh] = {}  # one at most
@@ -96,11 +97,7 @@ def cage_reduction(specs: CageSections, mesh: CageMesh) -> CageReduction | None:
 
 def _reduced(specs: ModesSections, mesh: CageMesh) -> CageReduction:
     if specs.bearing.row_count > 1:
-        raise InputError(
-            "A cage for two rows is a rigid body here, without modes; those of its half are a "
-            "single-row bearing's.",
-            where="cage.model",
-        )
+        raise_first(find_apart(specs.its_cage, specs.bearing.row_places))
     return reduce_cage(
         mesh,
         cage=specs.its_cage,
@@ -164,8 +161,11 @@ def bearing_to_compile(specs: MotionSections) -> BearingSystem:
 
 
 def _rigid_interface(specs: PocketSections) -> Any:
-    count = specs.bearing.element_count
-    return rigid_interface_of(specs.its_cage, pocket_count=count, defects=specs.all_defects)
+    bearing = specs.bearing
+    return rigid_interface_of(
+        specs.its_cage, pocket_count=bearing.element_count, defects=specs.all_defects,
+        places=bearing.row_places,
+    )  # fmt: skip
 
 
 def bent_rings(specs: RingSections) -> tuple[BentRing, ...]:

@@ -13,11 +13,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from flexcage.cages.halves import is_one_piece
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import mm
 from flexcage.geometry.bearing import Bearing, RowPlace
 from flexcage.geometry.cage import Cage
-from flexcage.geometry.checks import Finding, raise_first
+from flexcage.geometry.checks import Finding, check_cage_defects, raise_first
 
 if TYPE_CHECKING:
     from flexcage.contacts.spec import Contacts
@@ -122,7 +123,8 @@ def check(bearing: Any, cage: Cage | None, defects: Sequence[Any]) -> None:
 def check_cage(bearing: Bearing, cage: Cage | None, defects: Sequence[Any]) -> None:
     """Raise InputError for the first impossibility in one cage for both rows."""
     if cage is not None:
-        raise_first(_find_in_cage(bearing, cage, defects))
+        raise_first(_find_in_cage(bearing, cage))
+        check_cage_defects(bearing, cage, defects)
 
 
 def check_rows(bearing: Any) -> None:
@@ -149,21 +151,16 @@ def _find_in_rows(b: Any) -> Iterator[Finding]:
         )
 
 
-def _find_in_cage(b: Any, cage: Cage, defects: Sequence[Any]) -> Iterator[Finding]:
+def _find_in_cage(b: Any, cage: Cage) -> Iterator[Finding]:
     """``cage`` is that of one row: a common one is both, held together."""
-    if defects:
-        yield (
-            "defects",
-            f"A defect, or uneven spacing of pockets, of a cage for two rows of {b.element}s is "
-            "not computed; leave it out.",
-        )
     if b.element == "ball" and cage.guidance != "ball":
         yield (
             "cage.guidance",
             f"cage.guidance is '{cage.guidance}', but a cage for two rows of balls is guided by "
             'these; give "ball".',
         )
-    if cage.axial_width - cage.axial_reach > 0.5 * b.row_distance:
+    one = is_one_piece(cage, b.row_places)
+    if not one and cage.axial_width - cage.axial_reach > 0.5 * b.row_distance:
         yield (
             "cage.width",
             f"cage.width is {mm(cage.width)}, so the halves of a cage for both rows overlap, which "

@@ -10,6 +10,7 @@ from typing import Any
 
 from flexcage.bearings import in_motion
 from flexcage.cages import cage_type_of
+from flexcage.cages.halves import find_apart
 from flexcage.case.fit_checks import find_in_fit
 from flexcage.case.heat_checks import find_in_heat
 from flexcage.case.life_checks import find_in_life
@@ -77,12 +78,15 @@ def _check_whether_caged(case: CaseSections) -> None:
 
 
 def _find_in_rows(case: CaseSections) -> Iterator[Finding]:
-    """A common cage that bends."""
-    if case.bearing.row_count > 1 and case.cage_model == "flexible":
+    """A common cage that bends: it must be one body."""
+    if case.cage is None or case.bearing.row_count == 1 or case.cage_model != "flexible":
+        return
+    yield from find_apart(case.cage, case.bearing.row_places)
+    if case.mesh.file:
         yield (
-            "cage.model",
-            "cage.model is 'flexible', but one cage for two rows is computed as a rigid body "
-            'alone; give model = "rigid" in [cage].',
+            "mesh.file",
+            "mesh.file is given, but a common cage of two rows that bends is meshed by flexcage; "
+            'leave it out, or give model = "rigid" in [cage].',
         )
 
 

@@ -151,7 +151,7 @@ class PocketSections:
         without a cage."""
         if self.cage is None:
             return ()
-        uneven = defect_spec(self.cage).by_chance(self.cage, self.bearing.element_count, self.seed)
+        uneven = defect_spec(self.cage).by_chance(self.cage, self.bearing.total_elements, self.seed)
         return (*self.defects, *uneven)
 
 
@@ -170,6 +170,7 @@ class MeshSections(PocketSections):
             "pitch_diameter": self.bearing.pitch_diameter,
             "defects": self.all_defects,
             "options": self.mesh,
+            "places": self.bearing.row_places,
         }
 
 

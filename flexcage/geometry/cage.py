@@ -64,10 +64,8 @@ class Cage:
     altered: ClassVar[str] = "Defects"  # heads the list of its defects
     # do rivets of ``rivet_diameter`` between its pockets hold two halves together?
     riveted: ClassVar[bool] = False
-    # of the half of a common cage for two rows: is that of the row at -x the mirror image of the
-    # other, or the same in another place? And do its dimensions describe both at once?
+    # is one half of a common cage for two rows the mirror image of the other, or just elsewhere?
     mirrored: ClassVar[bool] = False
-    whole: ClassVar[bool] = False
 
     if TYPE_CHECKING:  # of those that are riveted, and what every type has as a field or says
 
@@ -168,6 +166,12 @@ class Cage:
         wall = pi / 4.0 * (self.outside_diameter**2 - self.bore**2)
         return 0.5 * self.material.density * wall * self.axial_width * self.mean_radius
 
+    @property
+    def inner_reach(self) -> float | None:
+        """How far one row's half of a common cage reaches [m] from the plane of the elements'
+        centres to its end at -x, in which both halves may hold together; None where not."""
+        return None
+
     def thinnest(self, pitch_diameter: float, pocket_count: int) -> float:
         """Least thickness [m] of wall and webs, for which elements must not be too large."""
         raise NotImplementedError
@@ -208,6 +212,10 @@ class CylindricalCage(Cage):
     bore: float = quantity("mm", doc="inside diameter", above=0.0)
     outside_diameter: float = quantity("mm", doc="outside diameter", above=0.0)
     width: float = quantity("mm", doc="axial width", above=0.0)
+
+    @property
+    def inner_reach(self) -> float | None:
+        return 0.5 * self.width
 
     def impossible(self, pocket_count: int) -> Iterator[Objection]:
         if self.outside_diameter <= self.bore:

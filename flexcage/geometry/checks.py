@@ -14,7 +14,7 @@ from flexcage.core.errors import InputError
 from flexcage.core.units import describe, mm
 from flexcage.geometry.bearing import Bearing
 from flexcage.geometry.cage import Cage
-from flexcage.geometry.defect import defect_spec
+from flexcage.geometry.defect import check_in_rows, defect_spec, in_row, numbered_as
 
 Finding = tuple[str, str]  # where, sentence
 
@@ -55,12 +55,16 @@ def check_cage_defects(bearing: Bearing, cage: Cage, defects: Sequence[Any]) -> 
     """Raise InputError for the first defect that the cage cannot have in this bearing."""
     if not defects:
         return
-    spec = defect_spec(cage)
-    spec.check_all(
-        defects, cage, pocket_count=bearing.element_count, pitch_diameter=bearing.pitch_diameter,
-        element_diameter=bearing.element_diameter,
-    )  # fmt: skip
-    raise_first(spec.interference(defects, cage, bearing))
+    spec, count = defect_spec(cage), bearing.element_count
+    check_in_rows(defects, count, bearing.row_count)
+    for row in range(bearing.row_count):
+        own = in_row(defects, row, count)
+        with numbered_as(defects, row, count):
+            spec.check_all(
+                own, cage, pocket_count=count, pitch_diameter=bearing.pitch_diameter,
+                element_diameter=bearing.element_diameter,
+            )  # fmt: skip
+            raise_first(spec.interference(own, cage, bearing))
 
 
 def _find_in_unbalance(c: Cage) -> Iterator[Finding]:

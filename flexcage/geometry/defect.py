@@ -7,8 +7,10 @@ user's own.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Literal, NamedTuple, TypeVar
 
 import numpy as np
@@ -87,16 +89,22 @@ class CageDefect:
         """Place around the cage, counted in pockets."""
         return float(self.number) if self.part == "pocket" else self.number - 0.5
 
+    def moved_by(self, parts: int) -> CageDefect:
+        """The same defect of the part that has a number greater by ``parts``."""
+        moved: dict[str, Any] = {self.part: self.number + parts}
+        return replace(self, **moved) if parts else self
+
     def extent(self, cage: Cage) -> float:
         """How large it is [m], by which data sets grade it: the largest of its lengths; 0 without
         any."""
         return max((abs(value) for value in parts_of_length(self)), default=0.0)
 
     def pockets(self, count: int) -> list[int]:
-        """Pockets that it touches, of ``count``; the one behind a beam or web first."""
+        """Pockets that it touches, of ``count`` in its row; the one behind a beam or web first."""
         if self.part == "pocket":
             return [self.number]
-        return [(self.number - 1) % count, self.number]
+        first = self.number // count * count  # of its row
+        return [first + (self.number - 1) % count, self.number]
 
     @property
     def label(self) -> str:
@@ -169,6 +177,35 @@ class CageDefect:
     def readings(self, mesh: Any, cage: Any, *, pitch_radius: float) -> Sequence[Reading]:
         """What a ``mesh.cage_mesh.CageMesh`` has of it, measured from the undamaged cage."""
         return ()
+
+
+def in_row(defects: Sequence[Any], row: int, count: int) -> tuple[Any, ...]:
+    """Defects of a row's half of a cage with ``count`` pockets a row, by the numbers that pockets
+    have in it."""
+    own = [d for d in defects if d.number // count == row]
+    return tuple(defect.moved_by(-row * count) for defect in own)
+
+
+@contextmanager
+def numbered_as(defects: Sequence[Any], row: int, count: int) -> Iterator[None]:
+    """An InputError about a defect of a row (``in_row``) says which of all ``defects`` it is."""
+    places = [i for i, d in enumerate(defects) if d.number // count == row]
+
+    def whole(text: str) -> str:
+        return re.sub(r"defects\.(\d+)", lambda m: f"defects.{places[int(m[1])]}", text)
+
+    try:
+        yield
+    except InputError as error:
+        if len(places) == len(defects):
+            raise
+        raise InputError(whole(str(error)), where=whole(error.where), value=error.value) from None
+
+
+def check_in_rows(defects: Sequence[Any], count: int, rows: int) -> None:
+    """Raise InputError for a defect of a part that none of the rows has."""
+    for i, defect in enumerate(defects):
+        raise_first(defect.check_number(f"defects.{i}", rows * count))
 
 
 Kind = TypeVar("Kind", bound=type[CageDefect])

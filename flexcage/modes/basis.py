@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, Protocol
 
 import numpy as np
 import scipy.sparse as sp
+
+from flexcage.mesh.rows import RowFrame
 
 FACES = ("front", "rear", "side+x", "side-x")  # face numbers 0..3 of a pocket, everywhere
 
@@ -121,6 +123,9 @@ class CageInterface:
 
     single: ClassVar[tuple[tuple[int, ...], ...]] = ((2,), (2,), (0,), (0,))  # the faces' normals
     even: ClassVar[tuple[tuple[int, ...], ...]] = ((0, 1), (0, 1), (1, 2), (1, 2))  # tangents
+    per_pocket: ClassVar[tuple[str, ...]] = (
+        "offset", "modes", "residual", "compliance", "weights"
+    )  # fmt: skip
 
     stations: np.ndarray  # (4, n_st) station coordinates [m]
     offset: np.ndarray  # (Z, 4, n_o) [m]
@@ -132,3 +137,8 @@ class CageInterface:
     offset_at: np.ndarray | None = None  # (4, n_o) [m]
     weights: sp.csr_matrix | None = None  # (Z*4*n_st, n_nodes): station <- nodal displacement
     land_weights: sp.csr_matrix | None = None  # (2*n_land, n_nodes), the same for land stations
+
+    def in_row(self, frame: RowFrame) -> CageInterface:
+        """That of a row's pockets with components along the cage's x; what counts along a pocket,
+        and the sides of a pocket, stay in the row's frame."""
+        return replace(self, modes=self.modes * np.array([frame.sign, 1.0, 1.0])[:, None])

@@ -14,6 +14,7 @@ from flexcage.fem.model import FEModel
 from flexcage.mesh.cage_mesh import FACE_AXES
 from flexcage.modes.basis import FACES
 
+ROW_AXES = "row_axes"  # in the ``info`` of the model of a row
 # of the residual vectors by modes.attachments; an interface has room for all of them
 LOADS = {"linear": 2 * len(FACES), "quadratic": 3 * len(FACES)}
 LOADS_PER_POCKET = LOADS["quadratic"]
@@ -37,6 +38,14 @@ def pocket_frame(pocket: float, pocket_count: int) -> np.ndarray:
 def pocket_frames(pocket_count: int) -> np.ndarray:
     """The frames (Z, 3, 3) of all pockets, or of stations evenly round the cage."""
     return frames_at(2.0 * np.pi * np.arange(pocket_count) / max(pocket_count, 1))
+
+
+def vector_frames(model: FEModel, pocket_count: int) -> np.ndarray:
+    """Those of the pockets that a model counts, (Z, 3, 3), as vectors of the cage: of the model of
+    a row (``modes.rows``) x is that of the row."""
+    frames = pocket_frames(pocket_count)
+    axes = model.info.get(ROW_AXES)
+    return frames if axes is None else frames @ np.array(axes, float)
 
 
 class FaceAxes(NamedTuple):
@@ -127,7 +136,7 @@ def sparse_pocket_loads(
     model: FEModel, pocket: int, pocket_count: int, *, count: int = LOADS_PER_POCKET
 ) -> sp.csc_matrix:
     """The first ``count`` of them, sparse: few nodes of the cage are on a pocket's faces."""
-    normals = face_axes(model).normal @ pocket_frame(pocket, pocket_count)
+    normals = face_axes(model).normal @ vector_frames(model, pocket_count)[pocket]
     faces = [
         sp.kron(_load_weights(model, pocket, face, pocket_count), normals[face : face + 1]).tocsr()
         for face in range(len(FACES))

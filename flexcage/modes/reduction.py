@@ -17,7 +17,9 @@ from flexcage.fem.effort import check_memory, modes_progress
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import FEModel, assemble
 from flexcage.geometry.cage import Cage
+from flexcage.geometry.defect import in_row
 from flexcage.mesh.cage_mesh import WALL_GROUPS, CageMesh, pocket_groups
+from flexcage.mesh.rows import ROWS, rows_in
 from flexcage.modes.basis import BodyFit, ContactInterface, ModeBasis
 from flexcage.modes.exchange.body import ReducedBody
 from flexcage.modes.exchange.cage import BODY, body_of, full_body_of, imported_model
@@ -25,6 +27,7 @@ from flexcage.modes.exchange.cage_checks import WHERE
 from flexcage.modes.exchange.formats import read_body
 from flexcage.modes.pockets import LOADS
 from flexcage.modes.registry import basis_of_body, basis_version, build_basis, check_files
+from flexcage.modes.rows import joined_interfaces, rows_of_cage
 from flexcage.modes.spec import ModesSpec
 from flexcage.modes.storage import (
     basis_arrays,
@@ -59,14 +62,15 @@ class Interfaces(Generic[C]):
     """How the cages of a type are touched.
 
     ``kind`` is a dataclass of arrays, sparse matrices and numbers, and ``rigid`` makes that of a
-    rigid cage. ``reduced`` makes that of a reduced one, which is kept on disk: besides its basis it
+    rigid cage. ``reduced`` makes that of a reduced one, a ``CageReduction`` or a ``RowOfCage`` of
+    ``modes.rows``, which is kept on disk: besides its basis it
     may depend on what ``depends_on`` gives of cage, defects and number of pockets, and on nothing
     else.
     """
 
     kind: type[ContactInterface]
     rigid: RigidInterface[C]
-    reduced: Callable[[CageReduction], ContactInterface]
+    reduced: Callable[[Any], ContactInterface]
     depends_on: Callable[[C, Sequence[Any], int], tuple[Any, ...]]
 
 
@@ -129,6 +133,7 @@ class CageReduction:
             self.mesh.points,
             self.mesh.tets,
             dict(self.mesh.groups),
+            *((self.mesh.info[ROWS],) if ROWS in self.mesh.info else ()),
             *basis_version(self.spec),
         )
 
@@ -139,6 +144,11 @@ class CageReduction:
             return None
         spec = self.spec
         return read_body(spec.body, nodes=spec.body_nodes, units=spec.body_units, where=WHERE)
+
+    @property
+    def pockets(self) -> int:
+        """How many pockets all rows have."""
+        return self.mesh.pocket_count * max(len(rows_in(self.mesh.info)), 1)
 
     @property
     def _own(self) -> bool:
@@ -204,7 +214,7 @@ class CageReduction:
         """Number, kind, frequency and effective masses of the dynamic modes."""
 
         def make() -> dict[str, np.ndarray]:
-            count = self.mesh.pocket_count
+            count = self.pockets
             return table_arrays(mode_table(self.model, self.basis, pocket_count=count))
 
         return table_from(self.arrays("table", f"{self.version}-{TABLE_VERSION}", make))
@@ -246,9 +256,18 @@ class CageReduction:
     def interface(self) -> Any:
         """The contact interface, of the cage type's own kind, from disk if it is there."""
         made = self.interfaces
-        content = made.depends_on(self.cage, self.defects, self.mesh.pocket_count)
+        count, rows = self.mesh.pocket_count, rows_in(self.mesh.info)
+        own = [in_row(self.defects, k, count) for k in range(len(rows))]
+        content: Sequence[Any] = [made.depends_on(self.cage, d, count) for d in own]
+        content = content or made.depends_on(self.cage, self.defects, count)
         key = content_hash(INTERFACE_VERSION, (self.version, *content), *self._outside)
-        arrays = self.arrays("interface", key, lambda: interface_arrays(made.reduced(self)))
+
+        def reduced() -> Any:
+            if not rows:
+                return made.reduced(self)
+            return joined_interfaces([made.reduced(row) for row in rows_of_cage(self)], rows)
+
+        arrays = self.arrays("interface", key, lambda: interface_arrays(reduced()))
         return interface_from(made.kind, arrays)
 
     @property
@@ -256,7 +275,7 @@ class CageReduction:
         """How many vectors a basis has, about."""
         walls = pocket_groups(self.mesh.groups) == WALL_GROUPS
         per_pocket = 0 if walls else LOADS[self.spec.attachments] + 1
-        return self.spec.count + per_pocket * self.mesh.pocket_count
+        return self.spec.count + per_pocket * self.pockets
 
     @cached_property
     @one_blas_thread
@@ -267,7 +286,7 @@ class CageReduction:
     @one_blas_thread
     def _make_basis(self) -> dict[str, np.ndarray]:
         check_memory(self.model, self._vectors)
-        count, solver = self.mesh.pocket_count, self.solver
+        count, solver = self.pockets, self.solver
         with modes_progress(solver):
             if self.body is not None and not self.body.is_full:
                 made = basis_of_body(self.body, solver, pocket_count=count, spec=self.spec)

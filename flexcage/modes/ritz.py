@@ -21,10 +21,13 @@ from flexcage.core.threads import on_all_cores
 from flexcage.fem.blocked_products import inner_products, subtract_product
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.modal import free_modes
+from flexcage.fem.model import FEModel
 from flexcage.fem.symmetry import find_symmetry
+from flexcage.mesh.rows import rows_in
 from flexcage.modes.basis import ModeBasis, ResidualFlexibility
 from flexcage.modes.lands import land_vectors
 from flexcage.modes.pockets import LOADS, LOADS_PER_POCKET, check_groups, sparse_pocket_loads
+from flexcage.modes.rows import row_models
 from flexcage.modes.spec import ModesSpec
 
 log = logging.getLogger(__name__)
@@ -91,7 +94,9 @@ def crossbeam_vectors(solver: FreeBodySolver, free: np.ndarray, answers: np.ndar
     leave of pushes that move the cage as a whole is stiff: such shapes are left out.
     """
     front, rear = 0, 2  # a pocket's even loads there
-    pushed = answers[:, :, front] - np.roll(answers[:, :, rear], -1, axis=1)
+    rows = max(len(rows_in(solver.model.info)), 1)
+    ahead, behind = (answers[:, :, k].reshape(len(answers), rows, -1) for k in (front, rear))
+    pushed = (ahead - np.roll(behind, -1, axis=2)).reshape(len(answers), -1)
     values, shapes = ritz_modes(solver, pushed, away_from=free)
     return shapes[:, values < _STIFF**2 * np.median(values)]
 
@@ -169,18 +174,20 @@ def pocket_statics(
     """The first ``count`` loads of every pocket (3N, m Z), and the inertia-relieved answers to them
     (3N, Z, m).
 
-    On a cyclic model pocket 0 is solved and turned, otherwise all are solved.
+    On a cyclic model the first pocket of a row is solved and turned, otherwise all are solved.
     """
-    symmetry = find_symmetry(solver.model, pocket_count)
+    rows = row_models(solver.model)
+    per_row = pocket_count // len(rows)
+    symmetry = find_symmetry(solver.model, per_row)
     log.debug("static answers of %d pockets, cyclic symmetry: %s", pocket_count, bool(symmetry))
-    pockets = range(pocket_count)
-    loads = [sparse_pocket_loads(solver.model, k, pocket_count, count=count) for k in pockets]
-    every = sp.hstack(loads, format="csc")
+    every = every_pocket_load(solver.model, pocket_count, count)
     answers = np.empty((solver.model.n_dof, pocket_count, count))
     if symmetry:
-        first = solver.solve(loads[0].toarray())
-        for k in pockets:
-            answers[:, k] = symmetry.rotate(first, k)
+        for row in range(len(rows)):
+            begin = row * per_row * count
+            first = solver.solve(every[:, begin : begin + count].toarray())
+            for k in range(per_row):
+                answers[:, row * per_row + k] = symmetry.rotate(first, k)
         return every, answers
     flat = answers.reshape(every.shape)
     solver.factor()
@@ -191,6 +198,16 @@ def pocket_statics(
 
     on_all_cores(solve, range(0, every.shape[1], _TOGETHER))
     return every, answers
+
+
+def every_pocket_load(model: FEModel, pocket_count: int, count: int) -> sp.csc_matrix:
+    """The first ``count`` loads of every pocket of all rows (3N, m Z)."""
+    rows = row_models(model)
+    per_row = pocket_count // len(rows)
+    loads = [
+        sparse_pocket_loads(row, k, per_row, count=count) for row in rows for k in range(per_row)
+    ]
+    return sp.hstack(loads, format="csc")
 
 
 def residual_flexibility(

@@ -9,7 +9,8 @@ import numpy as np
 from flexcage.fem.model import FEModel
 from flexcage.mesh.cage_mesh import POCKET_GROUPS, WALL_GROUPS, pocket_groups
 from flexcage.modes.basis import ModeBasis
-from flexcage.modes.pockets import pocket_frame, pocket_loads
+from flexcage.modes.pockets import pocket_frame, pocket_loads, vector_frames
+from flexcage.modes.rows import row_models
 
 _WINDOW = ("crossbeam", "side_beam")
 _ROUND = ("web", "rim")
@@ -94,7 +95,8 @@ def mode_table(model: FEModel, basis: ModeBasis, *, pocket_count: int) -> ModeTa
 
 def table_loads(model: FEModel, pocket_count: int) -> tuple[tuple[str, str], np.ndarray]:
     """What the two forces of the table act on, and their nodal loads (3N, 2) [N]."""
-    return _LOADS[pocket_groups(model.groups)](model, pocket_count)
+    rows = row_models(model)
+    return _LOADS[pocket_groups(model.groups)](rows[0], pocket_count // len(rows))
 
 
 def _on_faces(model: FEModel, pocket_count: int) -> tuple[tuple[str, str], np.ndarray]:
@@ -102,7 +104,7 @@ def _on_faces(model: FEModel, pocket_count: int) -> tuple[tuple[str, str], np.nd
 
 
 def _on_wall(model: FEModel, pocket_count: int) -> tuple[tuple[str, str], np.ndarray]:
-    frame = pocket_frame(0, pocket_count)
+    frame, ways = pocket_frame(0, pocket_count), vector_frames(model, pocket_count)[0]
 
     def cosines(points: np.ndarray) -> np.ndarray:
         x, _, t = frame @ points.T
@@ -110,7 +112,7 @@ def _on_wall(model: FEModel, pocket_count: int) -> tuple[tuple[str, str], np.nda
 
     weights = model.face_weights(model.group("pocket0_wall"), cosines).toarray()
     spread = weights / weights.sum(axis=1, keepdims=True)
-    loads = [np.outer(row, frame[axis]).ravel() for row, axis in zip(spread, (2, 0))]
+    loads = [np.outer(row, ways[axis]).ravel() for row, axis in zip(spread, (2, 0))]
     return _ROUND, np.stack(loads, axis=1)
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from flexcage.cages import cage_type_of
+from flexcage.cages.build import rigid_interface_of
 from flexcage.case import Case
 from flexcage.core.arrays import SPARSE
 from flexcage.core.errors import InputError
@@ -60,7 +60,7 @@ def check_sizes(record: CageRecord, case: Case, modes: int, path: Path) -> None:
     large = {"mesh", "basis"} if "mesh" not in found and modes else set()  # output.keep_cage
     if set(found) != wanted - large:
         raise _another(path, f"it holds {', '.join(sorted(found)) or 'nothing'}")
-    sizes = _Sizes(path, {"mode": modes, "pocket": case.bearing.element_count})
+    sizes = _Sizes(path, {"mode": modes, "pocket": case.bearing.total_elements})
     for group, shapes in _SHAPES.items():
         if group in found:
             sizes.check(group, found[group], shapes, _OPTIONAL.get(group, {}))
@@ -106,8 +106,8 @@ class _Sizes:
         if mesh is None:
             return
         count = int(mesh["pocket_count"])
-        if count != self.known["pocket"]:
-            raise _another(self.path, f"it has {count} pockets, not {self.known['pocket']}")
+        if count != (due := case.bearing.element_count):
+            raise _another(self.path, f"it has {count} pockets, not {due}")
         if mesh["group_sizes"].sum() != self.known["triangle"] or mesh["group_sizes"].min() < 0:
             raise _another(self.path, "its groups have other triangles than it holds")
         nodes = self.known["point"]
@@ -131,10 +131,10 @@ class _Sizes:
 
     def of_interface(self, arrays: Arrays, case: Case) -> None:
         """The interface of the case's cage: that of a rigid one, with modes and nodes."""
-        made = cage_type_of(case.its_cage).interfaces()
-        rigid: Any = made.rigid(
-            case.its_cage, pocket_count=self.known["pocket"], defects=case.all_defects
-        )
+        rigid: Any = rigid_interface_of(
+            case.its_cage, pocket_count=case.bearing.element_count, defects=case.all_defects,
+            places=case.bearing.row_places,
+        )  # fmt: skip
         names = set()
         for field in fields(rigid):
             like = getattr(rigid, field.name)

@@ -31,7 +31,7 @@ def check_places(case: Case, cage: CageReduction | None) -> None:
     node that the housing has not: before a run, rather than after it."""
     gauges = _gauges(case.sensors)
     if gauges and cage is not None:
-        count = cage.mesh.pocket_count
+        count = cage.pockets
         gauge_rows(cage.model, gauges, count, case.its_cage.mean_radius)
     if on_housing := _on_housing(case.sensors):
         housing = _housing(case)

@@ -107,7 +107,8 @@ class UnitFields:
 
     def _force_fields(self) -> np.ndarray:
         recovery = self._recovery
-        symmetry = find_symmetry(recovery.model, recovery.pocket_count)
+        per_row = recovery.pocket_count // recovery.rows
+        symmetry = find_symmetry(recovery.model, per_row)
         first = self._loads(0)
         every = recovery.pocket_count * first.shape[1]
         with stress_progress(recovery.model, f"{every} forces in pockets", every) as done:
@@ -115,13 +116,14 @@ class UnitFields:
             if symmetry is None:
                 recovery.solver.factor()
             else:
-                answer = recovery.solver.solve(first)
+                starts = range(0, recovery.pocket_count, per_row)
+                answers = [recovery.solver.solve(self._loads(k)) for k in starts]
 
             def fields(pocket: int) -> np.ndarray:
                 if symmetry is None:
                     found = self._beyond_modes(self._loads(pocket), pocket=pocket)
                 else:
-                    found = self._turned(symmetry, answer, pocket)
+                    found = self._turned(symmetry, answers[pocket // per_row], pocket)
                 done(first.shape[1])
                 return found
 

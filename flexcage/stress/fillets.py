@@ -57,13 +57,16 @@ class Corner:
     vertices: np.ndarray  # (n_v,) of the cells
     places: np.ndarray  # (n_v, 3) of these in the corner's frame [m]
     fine: bool  # the mesh has edges enough along the arc for one division
+    sign: float = 1.0  # of its row's x in the cage's frame
 
     def faces(self, pocket_count: int) -> list[tuple[int, int]]:
-        """Pocket and face of what may be pushed near the corner: crossbeam and side beam of the
+        """Pocket and face of what may be pushed near the corner, of so many pockets a row:
+        crossbeam and side beam of the
         pocket, then the same crossbeam's other face and the side beam of the next pocket."""
         along, across = self.mirror
         beam, side = (0 if across > 0 else 1), (2 if along > 0 else 3)
-        following = (self.pocket + across) % pocket_count
+        first = self.pocket // pocket_count * pocket_count  # of its row
+        following = first + (self.pocket + across) % pocket_count
         return [(self.pocket, beam), (self.pocket, side), (following, 1 - beam), (following, side)]
 
 
@@ -101,7 +104,7 @@ class Fillet:
         for pocket, face in self.corner.faces(self.pocket_count):
             order = along if face < 2 else across  # stations are even about mid-pocket
             rows.append(forces[pocket, face, ::order])
-        signs = np.array([along, 1.0, across])[:, None]
+        signs = np.array([self.corner.sign * along, 1.0, across])[:, None]
         return (np.stack(rows) * signs).reshape(-1, forces.shape[-1])
 
 

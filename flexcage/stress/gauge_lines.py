@@ -17,6 +17,7 @@ from flexcage.core.errors import InputError
 from flexcage.core.units import describe
 from flexcage.fem.model import FEModel, triangle_shapes
 from flexcage.fem.submodel import row_of
+from flexcage.mesh.rows import RowFrame, rows_in
 from flexcage.modes.pockets import frames_at
 from flexcage.results.signals.spec import ENDS, StrainGauge
 
@@ -61,7 +62,7 @@ def gauge_line(model: FEModel, gauge: StrainGauge, pocket_count: int, radius: fl
     """The line of a gauge; arguments as in ``gauge_rows``."""
     azimuth = gauge.azimuth
     if gauge.crossbeam is not None:
-        azimuth += 2.0 * pi * (gauge.crossbeam - 0.5) / pocket_count
+        azimuth += _azimuth_of(model, gauge.crossbeam, pocket_count)
     s = gauge.grid * (np.arange(PIECES + 1) / PIECES - 0.5)
     end = gauge.side in ENDS
     place = (gauge.radius or radius) if end else gauge.plane
@@ -75,6 +76,13 @@ def gauge_line(model: FEModel, gauge: StrainGauge, pocket_count: int, radius: fl
     line = _found(model, gauge, *_rays(gauge.side, around, along))
     _check(model, gauge, line)
     return line
+
+
+def _azimuth_of(model: FEModel, crossbeam: int, pocket_count: int) -> float:
+    """Azimuth [rad] of the middle of a crossbeam of a cage with so many pockets in all rows."""
+    rows = rows_in(model.info) or (RowFrame(),)
+    row, own = divmod(crossbeam, pocket_count // len(rows))
+    return rows[row].turned + 2.0 * pi * (own - 0.5) / (pocket_count // len(rows))
 
 
 def _rays(side: str, azimuth: np.ndarray, place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -17,10 +17,13 @@ import scipy.sparse as sp
 from flexcage.core.errors import InputError
 from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import FEModel
+from flexcage.mesh.rows import rows_in
 from flexcage.modes.basis import ContactInterface, ModeBasis
 from flexcage.modes.pockets import pocket_frames
+from flexcage.modes.rows import pocket_axes
 from flexcage.stress.fillets import Arrays, Fillet
 from flexcage.stress.places import StressPlaces
+from flexcage.stress.rows import contact_zone_of, fillets_of, roots_of
 from flexcage.stress.surface import SurfaceStress
 
 STRESS_VERSION = 1  # of what is kept: raise it when the same cage gives other fields or joints
@@ -86,22 +89,17 @@ class StressRecovery:
     @cached_property
     def fillets(self) -> list[Fillet]:
         """Submodels of the pockets' corners, where the mesh has fillets."""
-        return self.places.fillets(
-            self.model,
-            self.interface,
-            self.pocket_count,
-            lambda make: self.keep("fillets", make),
-        )
+        return fillets_of(self.places, self.model, self.interface, self.pocket_count, self.keep)
 
     @cached_property
     def roots(self) -> dict[str, np.ndarray]:
         """Vertices of every named place."""
-        return self.places.roots(self.model, self.pocket_count)
+        return roots_of(self.places, self.model, self.pocket_count)
 
     @cached_property
     def contact_zone(self) -> np.ndarray:
         """Vertices that the search for a peak leaves out (``places.StressPlaces``)."""
-        return self.places.contact_zone(self.model, self.pocket_count)
+        return contact_zone_of(self.places, self.model, self.pocket_count)
 
     @cached_property
     def vertex_stress(self) -> SurfaceStress:
@@ -114,8 +112,13 @@ class StressRecovery:
 
     @cached_property
     def frames(self) -> np.ndarray:
-        """Rows x, r, psi of every pocket's frame (Z, 3, 3)."""
-        return pocket_frames(self.pocket_count)
+        """Rows x, r, psi of every pocket's frame (Z, 3, 3), x as the cage's."""
+        return pocket_axes(self.model, self.pocket_count)
+
+    @property
+    def rows(self) -> int:
+        """How many rows of pockets the cage has."""
+        return max(len(rows_in(self.model.info)), 1)
 
     def nodal_forces(self, loads: CageLoads) -> np.ndarray:
         """Nodal contact forces (N, 3), cage frame: station forces spread with their weights."""

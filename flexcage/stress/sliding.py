@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from flexcage.modes.pockets import frames_at, pocket_frames
+from flexcage.modes.pockets import frames_at
 
 if TYPE_CHECKING:
     import xarray
@@ -39,8 +39,8 @@ class PocketMotion:
         return np.einsum("tzij,tzj->tzi", self.axes, vectors)
 
 
-def pocket_motion(ds: xarray.Dataset) -> PocketMotion:
-    """Motion of the rolling elements in their pockets."""
+def pocket_motion(ds: xarray.Dataset, azimuths: np.ndarray) -> PocketMotion:
+    """Motion of the rolling elements in their pockets, which are at these azimuths (Z,) [rad]."""
 
     def of(variable: str) -> np.ndarray:
         return np.asarray(ds[variable].transpose("time", "element", ...).values, float)
@@ -57,7 +57,7 @@ def pocket_motion(ds: xarray.Dataset) -> PocketMotion:
     cage_spin = np.einsum("tij,tj->ti", attitude, ds["cage_omega"].values)[:, None]
     place = centre - ds["cage_position"].values[:, None]
     relative = velocity - ds["cage_velocity"].values[:, None] - np.cross(cage_spin, place)
-    axes = np.einsum("tij,zaj->tzai", attitude, pocket_frames(position.shape[1]))
+    axes = np.einsum("tij,zaj->tzai", attitude, frames_at(azimuths))
     return PocketMotion(place, relative, spin - cage_spin, axes, own)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import pi
 from typing import Any, NamedTuple
 
@@ -11,6 +10,7 @@ import numpy as np
 from flexcage.bearings.ball.bearing import BallBearing
 from flexcage.bearings.ball.neighbours import ball_ball_data
 from flexcage.bodies.floating_frame import BodyData, no_body
+from flexcage.cages.halves import signs_of
 from flexcage.cages.round_pocket.cage import BallCage
 from flexcage.cages.round_pocket.interface import BallCageInterface
 from flexcage.contacts import laws
@@ -120,32 +120,11 @@ def pocket_contact(bearing: BallBearing, cage: BallCage, radius: float) -> Point
     return PointContact(rolling=along, transverse=fit, modulus=modulus)
 
 
-def in_all_rows(interface: BallCageInterface, bearing: BallBearing) -> BallCageInterface:
-    """The interface of a row's cage as one of the pockets of all rows; itself of a single row. That
-    of a second row is its mirror image."""
-    if bearing.row_count == 1:
-        return interface
-    rows = []
-    for row, mirrored in zip(bearing.row_places, _mirrored(bearing)):
-        along = np.array([-1.0 if mirrored else 1.0, 1.0])
-        rows.append(interface.centre * along + np.array([row.place, 0.0]))
-    alike = {
-        name: np.concatenate([getattr(interface, name)] * bearing.row_count)
-        for name in ("modes", "local", "radius", "slot")
-    }
-    return replace(interface, centre=np.concatenate(rows), **alike)
-
-
-def _mirrored(bearing: BallBearing) -> list[bool]:
-    """Is the cage of each row its mirror image? That of the second one."""
-    return [k > 0 for k in range(bearing.row_count)]
-
-
 def _pockets(
     bearing: BallBearing, cage: BallCage, contacts: Contacts, interface: BallCageInterface
 ) -> BallPockets:
     st = np.ascontiguousarray
-    angle, interface = bearing.element_azimuths, in_all_rows(interface, bearing)
+    angle = bearing.element_azimuths
     theta = interface.stations
     normal = np.sin(theta)[None, :, None] * interface.modes[:, :, 0]
     normal = normal + np.cos(theta)[None, :, None] * interface.modes[:, :, 2]
@@ -156,7 +135,7 @@ def _pockets(
     if interface.open_at is not None:
         ends[:, 2] = np.minimum(ends[:, 2], interface.open_at / interface.radius)
     offset = np.zeros(interface.modes.shape[:3]) if interface.offset is None else interface.offset
-    mirrored = np.repeat(_mirrored(bearing), bearing.ball_count)
+    mirrored = np.repeat(signs_of(cage, bearing.row_places), bearing.ball_count) < 0.0
     ends[mirrored, 2:] = ends[mirrored, :1:-1]
     return BallPockets(
         azimuth=st(np.stack([np.cos(angle), np.sin(angle)], axis=1)),

@@ -24,7 +24,8 @@ SECTORS = 24  # round a round pocket, whose depths are told apart
 def rubbing(ds: xarray.Dataset, bearing: Bearing, cage: Cage) -> Rubbing:
     """Balls on the walls of round pockets, by sectors round the pocket."""
     assert isinstance(cage, BallCage)
-    motion, radius = pocket_motion(ds), 0.5 * bearing.element_diameter
+    motion = pocket_motion(ds, bearing.element_azimuths)
+    radius = 0.5 * bearing.element_diameter
     station = ds["station_force"].transpose("time", "pocket", "face", "station", "cyl").values
     force, friction = (
         ds[f"pocket_{what}"].transpose("time", "pocket", "face").values[..., 0].astype(float)

@@ -238,17 +238,6 @@ def _rib_data(
     )
 
 
-def _in_all_rows(interface: CageInterface, rows: int) -> CageInterface:
-    """The interface of a row's cage as one of the pockets of all rows."""
-    if rows == 1:
-        return interface
-    names = ("offset", "modes", "residual", "compliance")
-    all_rows: dict[str, Any] = {
-        name: np.concatenate([getattr(interface, name)] * rows) for name in names
-    }
-    return replace(interface, **all_rows)
-
-
 def _places_of_rows(bearing: RollerBearing) -> np.ndarray:
     """Middle (Z,) [m] of the row of every roller."""
     return np.repeat([row.place for row in bearing.row_places], bearing.roller_count)
@@ -256,7 +245,6 @@ def _places_of_rows(bearing: RollerBearing) -> np.ndarray:
 
 def _pocket_data(bearing, cage, contacts: Contacts, interface: CageInterface) -> PocketData:
     s, drop = slice_grid(bearing, contacts.pocket.slices)
-    interface = _in_all_rows(interface, bearing.row_count)
     at = interface.stations if interface.offset_at is None else interface.offset_at
     return pocket_arrays(
         interface, interface.modes, interface.stations, at, contacts, bearing.element_azimuths,

@@ -47,7 +47,7 @@ def _rub(ds: xarray.Dataset, bearing: Bearing, points: np.ndarray) -> tuple[np.n
     """Over some samples: normal force times sliding speed on every face (t, z, 4) [W], normal force
     on crossbeams (t, z, 2) [N], rollers' radial place in their pockets (t, z) [m], friction of all
     (t,) [W], and the sum of the first over time by slices of crossbeams (z, 2, s) [W]."""
-    motion = pocket_motion(ds)
+    motion = pocket_motion(ds, bearing.element_azimuths)
     beams = slice_speeds(motion, ds["slice"].values, 0.5 * bearing.element_diameter)
     ends = end_speeds(motion, points, 0.5 * bearing.element_length)
     order = ("time", "pocket", "face")

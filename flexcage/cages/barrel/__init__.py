@@ -21,4 +21,5 @@ CAGE_TYPE = CageType(
     proposal=lambda: slots.proposal,
     defects=(CrossbeamDefect, SideBeamDefect, BrokenCrossbeam),
     defect_spec=WindowDefect,
+    joins=True,
 )

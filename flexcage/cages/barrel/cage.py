@@ -37,7 +37,6 @@ class BarrelCage(ConeShaped):
     cage_type: ClassVar[str] = "barrel"
     altered: ClassVar[str] = "Deformed"
     mirrored: ClassVar[bool] = True
-    whole: ClassVar[bool] = True
     widths: ClassVar[tuple[str, str]] = ("pocket_width", "pocket_width")
 
     type: str = option("barrel", doc="kind of cage", choices=BARREL_CAGES)
@@ -111,6 +110,10 @@ class BarrelCage(ConeShaped):
     @property
     def axial_reach(self) -> float:
         return self.half_width_along
+
+    @property
+    def inner_reach(self) -> float:
+        return 0.5 * self.row_distance
 
     @property
     def most_unbalance(self) -> float:

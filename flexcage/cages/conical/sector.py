@@ -16,6 +16,7 @@ from flexcage.cages.conical.shape import ConeShaped
 from flexcage.cages.conical.walls import pocket_walls
 from flexcage.core.errors import RunFailed
 from flexcage.mesh.gmsh_session import gmsh_model
+from flexcage.mesh.joint import set_joint, spread_evenly
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.sector import (
     MM,
@@ -60,6 +61,8 @@ def mesh_conical_half(cage: ConeShaped, *, pocket_count: int, options: MeshOptio
     with gmsh_model("flexcage half sector of a conical cage") as gmsh:
         fillets = _shape(gmsh, cage, pocket_count)
         _set_sizes(gmsh, plan, fillets)
+        if options.joint:
+            set_joint(gmsh, plan, cage.ends[0])
         generate(gmsh, plan)
         points, tets, faces = mesh_arrays(gmsh)
     surfaces = named_surfaces(
@@ -67,6 +70,8 @@ def mesh_conical_half(cage: ConeShaped, *, pocket_count: int, options: MeshOptio
         (*_RING, *_POCKET, _FILLET, _MIDDLE),
     )  # fmt: skip
     del surfaces[_MIDDLE]
+    if options.joint:
+        points = spread_evenly(points, np.unique(surfaces["end-x"]), pocket_count)
     points[np.unique(surfaces["cut_z"]), 2] = 0.0  # exact, so that mirror images coincide
     return Quarter(points, tets, surfaces, plan)
 

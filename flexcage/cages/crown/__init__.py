@@ -35,4 +35,5 @@ CAGE_TYPE = CageType(
     proposal=lambda: slots.proposal,
     defect_spec=CrownDefect,
     defects=(BentClaw, CrackedClaw, MissingClaw, WornPocket),
+    joins=True,
 )

@@ -34,6 +34,7 @@ class CrownCage(BallCage):
 
     cage_type: ClassVar[str] = "crown"
     pockets_vary: ClassVar[bool] = False
+    mirrored: ClassVar[bool] = True
 
     type: str = option("crown", doc="kind of cage", choices=BALL_CAGES)
     material: Material = option(MATERIALS["PA66"], doc="cage material (a name or its values)")
@@ -80,6 +81,10 @@ class CrownCage(BallCage):
     @property
     def axial_reach(self) -> float:
         return max(self.tip, -self.back)
+
+    @property
+    def inner_reach(self) -> float:
+        return -self.back
 
     @property
     def root(self) -> float:

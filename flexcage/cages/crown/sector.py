@@ -14,6 +14,7 @@ import numpy as np
 from flexcage.cages.crown.cage import CrownCage
 from flexcage.core.errors import RunFailed
 from flexcage.mesh.gmsh_session import gmsh_model
+from flexcage.mesh.joint import set_joint, spread_evenly
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.sector import (
     MM,
@@ -63,6 +64,8 @@ def mesh_crown_half(
         if breaks:
             _divide(gmsh, cage, pocket_count, fronts)
         _set_sizes(gmsh, plan, cage, pitch_radius)
+        if options.joint:
+            set_joint(gmsh, plan, cage.back)
         generate(gmsh, plan)
         points, tets, faces = mesh_arrays(gmsh)
     surfaces = named_surfaces(
@@ -70,6 +73,8 @@ def mesh_crown_half(
         (*NAMED, _REST),
     )  # fmt: skip
     del surfaces[_REST]
+    if options.joint:
+        points = spread_evenly(points, np.unique(surfaces["end-x"]), pocket_count)
     points[np.unique(surfaces["cut_z"]), 2] = 0.0  # exact, so that mirror images coincide
     return Quarter(points, tets, surfaces, plan)
 

@@ -33,4 +33,5 @@ CAGE_TYPE = CageType(
     proposal=lambda: slots.proposal,
     defect_spec=BallCageDefect,
     defects=(EnlargedPocket, ElongatedPocket, DisplacedPocket, WebCrack),
+    joins=True,
 )

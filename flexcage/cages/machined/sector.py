@@ -15,6 +15,7 @@ import numpy as np
 from flexcage.cages.round_pocket.cage import BallCage
 from flexcage.core.errors import RunFailed
 from flexcage.mesh.gmsh_session import gmsh_model
+from flexcage.mesh.joint import set_joint, spread_evenly
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.sector import (
     MM,
@@ -65,11 +66,15 @@ def mesh_ball_quarter(
     with gmsh_model("flexcage quarter sector of a ball cage") as gmsh:
         _shape(gmsh, cage, pocket_count, plan.stretch, tips)
         set_sizes(gmsh, plan, only_cylinder(gmsh, "pocket wall"))
+        if options.joint:
+            set_joint(gmsh, plan, 0.5 * cage.width)
         generate(gmsh, plan)
         points, tets, faces = mesh_arrays(gmsh, plan.stretch)
     surfaces = named_surfaces(
         faces, points, lambda on: _surface_name(on, cage, pocket_count), SURFACES
     )
+    if options.joint:
+        points = spread_evenly(points, np.unique(surfaces["end"]), pocket_count)
     points[np.unique(surfaces["cut_x"]), 0] = 0.0  # exact, so that mirror images coincide
     points[np.unique(surfaces["cut_z"]), 2] = 0.0
     return Quarter(points, tets, surfaces, plan)

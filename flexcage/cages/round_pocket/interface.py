@@ -10,7 +10,7 @@ by the same spread force.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
@@ -23,6 +23,7 @@ from flexcage.fem.free import FreeBodySolver
 from flexcage.fem.model import FEModel
 from flexcage.fem.symmetry import find_symmetry
 from flexcage.geometry.materials import Material
+from flexcage.mesh.rows import RowFrame
 from flexcage.modes.basis import ModeBasis
 from flexcage.modes.interface import (
     LAND_STATIONS,
@@ -30,7 +31,7 @@ from flexcage.modes.interface import (
     land_station_weights,
     normalised,
 )
-from flexcage.modes.pockets import pocket_frame, pocket_frames
+from flexcage.modes.pockets import pocket_frame, vector_frames
 from flexcage.modes.reduction import CageReduction, Interfaces
 
 N_STATIONS = 16
@@ -50,6 +51,9 @@ class BallCageInterface:
 
     single: ClassVar[tuple[tuple[int, ...], ...]] = ((0, 1, 2),)
     even: ClassVar[tuple[tuple[int, ...], ...]] = ((),)
+    per_pocket: ClassVar[tuple[str, ...]] = (
+        "modes", "local", "centre", "radius", "slot", "weights", "offset", "open_at"
+    )  # fmt: skip
 
     stations: np.ndarray  # (n_st,) angles [rad], 0 towards +psi, pi/2 towards +x
     modes: np.ndarray  # (Z, n_st, 3, n) dynamic modes at stations
@@ -69,6 +73,27 @@ class BallCageInterface:
     def normals(self) -> np.ndarray:
         """Outward normals (n_st, 3) of the wall at the stations, in the pocket's frame."""
         return wall_normals(self.stations)
+
+    def in_row(self, frame: RowFrame) -> BallCageInterface:
+        """That of a row's pockets in the cage's frame, but for where walls end towards the row's
+        own +x."""
+        ways = np.array([frame.sign, 1.0, 1.0])
+        angles = np.arange(len(self.stations)) * int(frame.sign)
+        offset, weights = self.offset, self.weights
+        if weights is not None and frame.sign < 0.0:
+            pockets = np.arange(len(self.radius))[:, None] * len(angles)
+            weights = weights[(pockets + angles % len(angles)).ravel()]
+        return replace(
+            self, modes=self.modes[:, angles] * ways[:, None], local=self.local[:, angles],
+            centre=self.centre * ways[[0, 2]] + np.array([frame.place, 0.0]), weights=weights,
+            offset=None if offset is None else offset[:, angles] * ways,
+        )  # fmt: skip
+
+    def plain(self, name: str) -> np.ndarray:
+        """What ``offset`` or ``open_at`` is where defects moved nothing."""
+        if name == "offset":
+            return np.zeros(self.modes.shape[:3])
+        return np.full(len(self.radius), np.inf)
 
 
 WeightsOf = Callable[[FEModel, np.ndarray, PocketShapes, Any], sp.csr_matrix]
@@ -126,8 +151,9 @@ def ball_cage_interface(
     shapes = pocket_shapes(cage, defects, pocket_count=pocket_count)
     weights = (weights_of or wall_weights)(model, stations, shapes, cage)
     land_weights = land_station_weights(model, n_land)
-    modes = _modes_at_stations(basis, weights, pocket_count, n_stations)
-    static = static_compliance(solver or FreeBodySolver(model), weights, pocket_count)
+    frames = vector_frames(model, pocket_count)
+    modes = _modes_at_stations(basis, weights, frames)
+    static = static_compliance(solver or FreeBodySolver(model), weights, frames)
     beyond = static - carried_compliance(basis, modes, stations)
     return BallCageInterface(
         stations=stations,
@@ -176,35 +202,33 @@ def station_hats(angles: np.ndarray, count: int) -> np.ndarray:
     return np.maximum(1.0 - np.abs(difference), 0.0)
 
 
-def _modes_at_stations(
-    basis: ModeBasis, weights: sp.csr_matrix, pocket_count: int, n_stations: int
-) -> np.ndarray:
+def _modes_at_stations(basis: ModeBasis, weights: sp.csr_matrix, frames: np.ndarray) -> np.ndarray:
     n_nodes, _, n = basis.shapes.shape
-    means = (weights @ basis.shapes.reshape(n_nodes, 3 * n)).reshape(pocket_count, n_stations, 3, n)
-    frames = pocket_frames(pocket_count)
+    means = (weights @ basis.shapes.reshape(n_nodes, 3 * n)).reshape(len(frames), -1, 3, n)
     return np.ascontiguousarray(np.einsum("kab,ksbn->ksan", frames, means))
 
 
-def normal_loads(weights: sp.csr_matrix, pocket: int, pocket_count: int) -> np.ndarray:
-    """Nodal loads (3N, n_st) of 1 N along the outward normal at each station of a pocket."""
-    n_stations = weights.shape[0] // pocket_count
+def normal_loads(weights: sp.csr_matrix, pocket: int, frames: np.ndarray) -> np.ndarray:
+    """Nodal loads (3N, n_st) of 1 N along the outward normal at each station of a pocket, which has
+    one of the ``frames`` (Z, 3, 3)."""
+    n_stations = weights.shape[0] // len(frames)
     rows = weights[pocket * n_stations : (pocket + 1) * n_stations].toarray()
-    normals = wall_normals(wall_stations(n_stations)) @ pocket_frame(pocket, pocket_count)
+    normals = wall_normals(wall_stations(n_stations)) @ frames[pocket]
     return np.einsum("sn,sa->nas", rows, normals).reshape(-1, n_stations)
 
 
 def static_compliance(
-    solver: FreeBodySolver, weights: sp.csr_matrix, pocket_count: int
+    solver: FreeBodySolver, weights: sp.csr_matrix, frames: np.ndarray
 ) -> np.ndarray:
     """Displacement (Z, n_st) [m/N] of each station along its normal under its own unit force.
 
     Inertia-relieved, on the full mesh, all that the elements show; on a cyclic model pocket 0
     stands for all.
     """
+    pocket_count, answers = len(frames), []
     symmetry = find_symmetry(solver.model, pocket_count)
-    answers = []
     for pocket in range(1 if symmetry else pocket_count):
-        loads = normal_loads(weights, pocket, pocket_count)
+        loads = normal_loads(weights, pocket, frames)
         answers.append(np.einsum("ns,ns->s", loads, solver.solve(loads)))
     return np.tile(answers, (pocket_count // len(answers), 1))
 

@@ -25,8 +25,7 @@ from flexcage.modes.pockets import (
     face_axes,
     face_group,
     hat_weights,
-    pocket_frame,
-    pocket_frames,
+    vector_frames,
 )
 from flexcage.modes.reduction import CageReduction, Interfaces
 
@@ -105,13 +104,13 @@ def cage_interface(
     weights = station_weights(model, stations, pocket_count)
     land_weights = land_station_weights(model, n_land)
     residual, compliance = _residual_at_stations(
-        basis, weights, pocket_count, face_axes(model).normal
+        basis, weights, vector_frames(model, pocket_count), face_axes(model).normal
     )
     return CageInterface(
         stations=stations,
         offset=face_offsets(cage, points, pocket_count=pocket_count, defects=defects),
         offset_at=points,
-        modes=_modes_at_stations(basis, weights, pocket_count, n_stations),
+        modes=_modes_at_stations(basis, weights, vector_frames(model, pocket_count)),
         residual=residual,
         compliance=compliance,
         patch_half_width=_patch_half_width(cage),
@@ -134,24 +133,21 @@ def station_weights(model: FEModel, stations: np.ndarray, pocket_count: int) -> 
     )
 
 
-def _modes_at_stations(
-    basis: ModeBasis, weights: sp.csr_matrix, pocket_count: int, n_stations: int
-) -> np.ndarray:
+def _modes_at_stations(basis: ModeBasis, weights: sp.csr_matrix, frames: np.ndarray) -> np.ndarray:
     means = averaged(basis.shapes, weights)
-    means = means.reshape(pocket_count, len(FACES), n_stations, 3, basis.size)
-    frames = pocket_frames(pocket_count)
+    means = means.reshape(len(frames), len(FACES), -1, 3, basis.size)
     return np.ascontiguousarray(np.einsum("kab,kfsbn->kfsan", frames, means))
 
 
 def _residual_at_stations(
-    basis: ModeBasis, weights: sp.csr_matrix, pocket_count: int, normals: np.ndarray
+    basis: ModeBasis, weights: sp.csr_matrix, frames: np.ndarray, normals: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Outward displacement (Z, 4, n_st, 12) of each pocket's own vectors, and compliances.
 
     Vectors that the basis lacks are zero: quadratic ones with linear attachments. ``normals``
-    (4, 3): the faces' normals in their pocket's frame.
+    (4, 3): the faces' normals in their pocket's frame, one of ``frames`` (Z, 3, 3).
     """
-    loads = LOADS_PER_POCKET
+    loads, pocket_count = LOADS_PER_POCKET, len(frames)
     n_stations = weights.shape[0] // (pocket_count * len(FACES))
     at_stations = np.zeros((pocket_count, len(FACES), n_stations, loads))
     compliance = np.zeros((pocket_count, loads, loads))
@@ -164,7 +160,7 @@ def _residual_at_stations(
     rows = len(FACES) * n_stations
     for pocket in range(pocket_count):
         own = shapes[:, :, pocket * per : (pocket + 1) * per]
-        ways = np.repeat(normals @ pocket_frame(pocket, pocket_count), n_stations, axis=0)
+        ways = np.repeat(normals @ frames[pocket], n_stations, axis=0)
         means = averaged(own, weights[pocket * rows : (pocket + 1) * rows])
         outward = np.einsum("sa,san->sn", ways, means)
         at_stations[pocket, ..., :per] = outward.reshape(len(FACES), n_stations, per)

@@ -16,6 +16,7 @@ import numpy as np
 from flexcage.cages.window.cage import WindowCage
 from flexcage.core.errors import RunFailed
 from flexcage.mesh.gmsh_session import gmsh_model
+from flexcage.mesh.joint import set_joint, spread_evenly
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.sector import (
     MM,
@@ -68,6 +69,8 @@ def mesh_quarter(cage: WindowCage, *, pocket_count: int, options: MeshOptions) -
         _shape(gmsh, cage, pocket_count, plan.stretch)
         fillet = _fillet_surface(gmsh, cage)
         set_sizes(gmsh, plan, fillet)
+        if options.joint:
+            set_joint(gmsh, plan, 0.5 * cage.width)
         generate(gmsh, plan)
         points, tets, faces = mesh_arrays(gmsh, plan.stretch)
     surfaces = {
@@ -76,6 +79,8 @@ def mesh_quarter(cage: WindowCage, *, pocket_count: int, options: MeshOptions) -
     }
     if set(surfaces) != {*SURFACES, "fillet"} or len(faces) != len(surfaces):
         raise RunFailed(f"the quarter sector has unexpected surfaces: {sorted(surfaces)}")
+    if options.joint:
+        points = spread_evenly(points, np.unique(surfaces["end"]), pocket_count)
     points[np.unique(surfaces["cut_x"]), 0] = 0.0  # exact, so that mirror images coincide
     points[np.unique(surfaces["cut_z"]), 2] = 0.0
     return Quarter(points, tets, surfaces, plan)

@@ -26,8 +26,13 @@ from flexcage.modes.basis import BodyFit, ModeBasis, ResidualFlexibility
 from flexcage.modes.exchange.body import MODAL, RESIDUAL, ReducedBody
 from flexcage.modes.exchange.cage_checks import WHERE, check_mass, check_modal_mass, match_nodes
 from flexcage.modes.exchange.checks import check_free, elastic_modes
-from flexcage.modes.pockets import LOADS, sparse_pocket_loads
-from flexcage.modes.ritz import eigen_basis, residual_flexibility, residual_vectors
+from flexcage.modes.pockets import LOADS
+from flexcage.modes.ritz import (
+    eigen_basis,
+    every_pocket_load,
+    residual_flexibility,
+    residual_vectors,
+)
 from flexcage.modes.spec import ModesSpec
 from flexcage.modes.table import table_loads
 
@@ -128,7 +133,7 @@ def _as_named(
         )
     stiffness = body.dense()[0][np.ix_(residual, residual)]
     vectors = np.ascontiguousarray(shapes[:, :, residual]).reshape(model.n_dof, count)
-    loads = _every_load(model, pocket_count, per)
+    loads = every_pocket_load(model, pocket_count, per)
     work = loads.T @ basis.shapes.reshape(model.n_dof, -1)
     own = 1.0 / np.diag(stiffness)
     share = own / (own + np.einsum("ij,ij->i", work, np.linalg.solve(basis.stiffness, work.T).T))
@@ -167,7 +172,7 @@ def _rest_as_residual(
     rest = modes[:, n:]
     if rest.shape[1] < _SHARE * per * pocket_count:
         return None
-    loads = _every_load(model, pocket_count, per)
+    loads = every_pocket_load(model, pocket_count, per)
     work = loads.T @ rest
     blocks = work.reshape(pocket_count, per, -1)
     own = np.einsum("pim,m,pjm->pij", blocks, 1.0 / values[n:], blocks)
@@ -190,13 +195,6 @@ def _dynamic_count(values: np.ndarray, spec: ModesSpec) -> int:
         return len(values)
     n = spec.count
     return n + int(values[n] <= values[n - 1] * (1.0 + PAIR))
-
-
-def _every_load(model: FEModel, pocket_count: int, per: int) -> sp.csc_matrix:
-    """Nodal loads (3N, per Z) on the faces of all pockets."""
-    pockets = range(pocket_count)
-    every = [sparse_pocket_loads(model, k, pocket_count, count=per) for k in pockets]
-    return sp.hstack(every, format="csc")
 
 
 def _fitted(basis: ModeBasis, solver: FreeBodySolver, pocket_count: int, mass: float) -> ModeBasis:
