@@ -27,9 +27,7 @@ UNCAGED = '\n[cage]\nmodel = "none"\n'
 
 
 @on_one_core
-def measure(
-    case: flexcage.Case, *, repeats: int = REPEATS, calls: int = CALLS
-) -> dict[str, Any]:
+def measure(case: flexcage.Case, *, repeats: int = REPEATS, calls: int = CALLS) -> dict[str, Any]:
     """Microseconds a contact, the least of ``repeats``, and how many bear: of the case's cylinders
     without its cage, and of the examples' cones and barrels."""
     cylinders = case.replace({"cage": None, "cage.model": "none"})

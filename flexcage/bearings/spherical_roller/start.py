@@ -25,6 +25,10 @@ from flexcage.system.problem import BearingSystem
 from flexcage.system.statics.slices import rolling_of
 from flexcage.system.statics.solution import StaticSolution
 
+LOOSE = (
+    "Without a cage nothing keeps barrels that bear nothing from turning ever further askew, within "
+    "milliseconds; give a [cage], or look at the run's beginning alone."
+)
 _SOON = 1e-6  # s, over which velocities are differenced
 
 
@@ -52,7 +56,8 @@ def spherical_start(
     y, residual = balanced(bearing, y, rolling, skews=False)
     yd = rolling(y)
     station = np.zeros_like(bearing.data.work.report.station)
-    return Start(y, yd, (), 0.0, residual, station, (*solution.warnings, *said_of(residual)))
+    warnings = (*solution.warnings, *said_of(residual), *(() if layout.has_cage else (LOOSE,)))
+    return Start(y, yd, (), 0.0, residual, station, warnings)
 
 
 def settled_barrels(
