@@ -26,7 +26,7 @@ from flexcage.system.statics.slices import rolling_of
 from flexcage.system.statics.solution import StaticSolution
 
 LOOSE = (
-    "Without a cage nothing keeps barrels that bear nothing from turning ever further askew, within "
+    "Without a cage nothing keeps barrels that bear nothing from turning ever further askew, in "
     "milliseconds; give a [cage], or look at the run's beginning alone."
 )
 _SOON = 1e-6  # s, over which velocities are differenced
