@@ -56,6 +56,5 @@ def test_faults_of_tapered_bearings_stand_at_their_passing_frequencies(fault):
     due = passing(fault, case.bearing, case.drive.speed)
     near = (frequency > 0.6 * due) & (frequency < 1.5 * due)
     found = frequency[near][lines[near].argmax()]
-    print(fault, found, due, lines[near].max() / np.median(lines[near]))
     assert found == pytest.approx(due, abs=0.5 * apart + 0.01 * due)
     assert run.summary.row("energy_audit").value == "passed"

@@ -27,7 +27,7 @@ from flexcage.geometry.life.iso281 import ROLLERS, Endurance
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.other_kinds import SURROUNDINGS
 from flexcage.geometry.rollers import RollerProfile
-from flexcage.geometry.spall import BY_RACE, Spall
+from flexcage.geometry.spall import BY_RACE, Spall, spalls_in_words
 from flexcage.geometry.waviness import waviness, waviness_azimuth, waviness_order
 
 if TYPE_CHECKING:
@@ -216,6 +216,6 @@ class TaperedRollerBearing(OfInclinedRollers, Bearing):
             f"{self.name_and_size} with {self.roller_count} rollers from {typeset(large, 'mm')} to "
             f"{typeset(small, 'mm')} in diameter and {typeset(self.roller_length, 'mm')} "
             f"long{self.of_what}, contact angle {angle}."
-            f"{self.inner_spall.in_words('inner')}{self.outer_spall.in_words('outer')}"
+            f"{spalls_in_words(self)}"
             f"{self.roller_spot.in_words()}"
         )

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from flexcage.bearings.cylindrical_roller.model import SpottedRollers
+from flexcage.bearings.cylindrical_roller.model import SpottedRollers, spotted_rollers
 from flexcage.bearings.tapered_roller.bearing import TaperedRollerBearing
 from flexcage.bearings.tapered_roller.pocket_data import cone_pocket_data, face_frames, no_frames
 from flexcage.bearings.tapered_roller.spheres import spheres
@@ -25,7 +25,6 @@ from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT
 from flexcage.contacts.uneven import is_uneven, spread, uneven_race
 from flexcage.geometry.rollers import LINE_EXPONENT
-from flexcage.geometry.spot import marked
 from flexcage.system.bodies import bodies_of, inner_ring_of, outer_ring_of, unbalanced
 from flexcage.system.data import Bodies, RingBody, Work, new_work
 from flexcage.system.layout import Layout
@@ -141,7 +140,7 @@ def build_tapered_model(
             else no_pockets(count, 0.5 * bearing.roller_length)
         ),
         neighbours=_neighbours(bearing, contacts),
-        spot=SpottedRollers(marked(count, bearing.roller_spot.rollers), bearing.roller_spot.angle),
+        spot=spotted_rollers(bearing),
         land=no_land(),
         frames=face_frames(bearing, cage) if cage else no_frames(),
     )  # fmt: skip
