@@ -12,13 +12,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import atan, cos, pi, sin, sqrt
+from math import asin, atan, cos, pi, sin, sqrt
 from typing import TYPE_CHECKING, ClassVar
 
 from flexcage.bearings.cylindrical_roller.spot import RollerSpot
 from flexcage.bearings.tapered_roller.frustum import Frustum
 from flexcage.cages.conical.cage import ConicalCage
-from flexcage.core.spec import option, quantity
+from flexcage.core.spec import GIVEN, option, quantity
 from flexcage.core.units import typeset
 from flexcage.geometry.bearing import Bearing, Spec, type_name
 from flexcage.geometry.hertz import PointContact
@@ -82,6 +82,14 @@ class TaperedRollerBearing(OfInclinedRollers, Bearing):
     roller_count: int = option(doc="number Z of rollers", minimum=3)
     rib_height: float = quantity("mm", doc="height of the large rib over the inner race", above=0.0)
     end_radius: float = quantity("mm", doc="radius of the rollers' spherical large ends", above=0.0)
+    small_rib_height: float | None = quantity(
+        "mm", None, doc="height of the small rib over the inner race (default: no small rib)",
+        above=0.0,
+    )  # fmt: skip
+    small_rib_play: float = quantity(
+        "mm", 0.3e-3, doc="play of a roller between both ribs, along its axis", above=0.0,
+        when={"small_rib_height": GIVEN},
+    )  # fmt: skip
     profile: RollerProfile = option(RollerProfile(), doc="roller profile")
     material: Material = option(MATERIALS["GCr15"], doc="material of the rings, and of the rollers")
     element_material: Material | None = option(
@@ -181,6 +189,25 @@ class TaperedRollerBearing(OfInclinedRollers, Bearing):
         radius = self.pitch_radius - along * sin(self.axis_angle) + across * cos(self.axis_angle)
         return PointContact(
             rolling=1.0 / (1.0 / self.end_radius - inwards / radius),
+            transverse=self.end_radius,
+            modulus=self.race_modulus,
+        )
+
+    @property
+    def small_rib_angle(self) -> float:
+        """Angle [rad] between the small rib's force, halfway up that, and the roller's axis: small
+        ends count as spheres as flat as the large ones."""
+        assert self.small_rib_height is not None
+        return asin((self.roller.ends[1] - 0.5 * self.small_rib_height) / self.end_radius)
+
+    @cached_property
+    def small_rib_contact(self) -> PointContact:
+        """Hertz contact of a roller's small end with the face of the small rib, which is vaulted as
+        that of the large one is hollow."""
+        lean, end = self.axis_angle + self.small_rib_angle, 0.5 * self.roller_length
+        radius = self.race_diameters[0] / 2.0 * (1.0 - end / self.apex_distance)
+        return PointContact(
+            rolling=1.0 / (1.0 / self.end_radius + sin(lean) / radius),
             transverse=self.end_radius,
             modulus=self.race_modulus,
         )
