@@ -264,7 +264,7 @@ def _text(
     speed = _speed(bearing.pitch_diameter, caged=caged)
     sections = [
         ("bearing", _entries(bearing, {"type": "", "designation": "", **given, **chosen.reasons})),
-        ("cage", _cage(proposed, full=outline.complement != CAGED)),
+        ("cage", _cage(proposed, bearing, full=outline.complement != CAGED)),
         ("drive", [(
             "speed", f'"{speed} rpm"',
             "assumption: moderate" if caged else "assumption: moderate without a cage",
@@ -292,9 +292,10 @@ def _text(
 
 
 def _in_its_row(proposed: ProposedCage, bearing: Bearing) -> ProposedCage:
-    """The cage of a row, of which each has one, narrower where they would overlap."""
+    """The cage of a row, of which each has one if its type may, narrower where they would
+    overlap."""
     cage = proposed.cage
-    if bearing.row_count == 1:
+    if bearing.row_count == 1 or EACH not in cage.for_rows:
         return proposed
     apart = float(np.ptp([row.place for row in bearing.row_places])) - _BETWEEN_CAGES
     reasons, changed = {**proposed.reasons, "rows": _EACH}, dict[str, Any](rows=EACH)
@@ -304,12 +305,17 @@ def _in_its_row(proposed: ProposedCage, bearing: Bearing) -> ProposedCage:
     return replace(proposed, cage=replace(cage, **changed), reasons=reasons)
 
 
-def _cage(proposed: ProposedCage | None, *, full: bool) -> list[tuple[str, str, str]]:
+def _cage(
+    proposed: ProposedCage | None, bearing: Bearing, *, full: bool
+) -> list[tuple[str, str, str]]:
     if proposed is None:
         why = "full complement" if full else "assumption: none of usual proportions has room"
         return [("model", f'"{NO_CAGE}"', f"{why}: elements touch the next ones")]
+    model = ("model", '"flexible"', "")
+    if bearing.row_count > 1 and proposed.cage.rows != EACH:
+        model = ("model", '"flexible"', "one piece for both rows, each half as follows")
     return [
-        ("model", '"flexible"', ""),
+        model,
         *_entries(proposed.cage, {"type": "", **proposed.reasons}),
     ]
 

@@ -57,8 +57,7 @@ def common_mesh(kind: str, *defects, staggered=True, fineness="coarse", cage=Non
 def reduced(kind: str, *, staggered: bool = True, method: str = "ritz"):
     """The reduction of a sound one."""
     mesh = common_mesh(kind, staggered=staggered)
-    spec = ModesSpec(basis=method) if method != "ritz" else ModesSpec()
-    return reduce_cage(mesh, cage=COMMON[kind][0], defects=(), spec=spec)
+    return reduce_cage(mesh, cage=COMMON[kind][0], defects=(), spec=ModesSpec(kind=method))
 
 
 def pocket_places(points: np.ndarray, kind: str, pocket: int, *, staggered=True) -> np.ndarray:

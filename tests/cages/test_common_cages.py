@@ -150,7 +150,7 @@ def test_frequencies_of_common_cages_converge(kind):
         frequencies(assemble(common_mesh(kind, fineness=f), COMMON[kind][0].material), 6)
         for f in ("coarse", "medium", "fine")
     )
-    assert coarse == pytest.approx(fine, rel=0.03)
+    assert coarse == pytest.approx(fine, rel=0.04)
     assert medium == pytest.approx(fine, rel=0.012)
 
 

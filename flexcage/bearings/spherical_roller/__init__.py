@@ -20,9 +20,10 @@ FAMILY = Family(
     variables=lambda: slots.variables,
     speed=lambda: slots.speed,
     figures=lambda: slots.figures,
-    rubbing=None,
+    rubbing=lambda: slots.rubbing,
     shapes=lambda: slots.shapes,
     inside=lambda: slots.inside,
+    losses=lambda: slots.losses,
     catalogue=f"{__name__}.catalogue",
     built_on="tapered_roller",
 )
