@@ -19,6 +19,7 @@ from flexcage.core.units import mm
 from flexcage.geometry.bearing import Bearing, RowPlace
 from flexcage.geometry.cage import Cage
 from flexcage.geometry.checks import Finding, check_cage_defects, raise_first
+from flexcage.geometry.spall import Spall, find_row
 
 if TYPE_CHECKING:
     from flexcage.contacts.spec import Contacts
@@ -75,8 +76,10 @@ class RowFields:
 def single(bearing: Bearing, kind: type[Bearing], **changes: Any) -> Any:
     """The single-row bearing ``kind`` with the values that a bearing has of its keys, or with
     ``changes``."""
-    own = [f.name for f in fields(kind) if f.name != "type" and hasattr(bearing, f.name)]
-    return kind(**{**{name: getattr(bearing, name) for name in own}, **changes})
+    names = [f.name for f in fields(kind) if f.name != "type" and hasattr(bearing, f.name)]
+    own = {name: getattr(bearing, name) for name in names}
+    spalls = {name: replace(s, row=0) for name, s in own.items() if isinstance(s, Spall)}
+    return kind(**{**own, **spalls, **changes})
 
 
 def rows_of(bearing: Any, *, speed: float, contacts: Contacts, options: StaticOptions) -> Rows:
@@ -130,6 +133,9 @@ def check_cage(bearing: Bearing, cage: Cage | None, defects: Sequence[Any]) -> N
 def check_rows(bearing: Any) -> None:
     """Raise InputError where rows meet, or reach out of the bearing."""
     raise_first(_find_in_rows(bearing))
+    for ring in ("inner", "outer"):
+        if hasattr(bearing, f"{ring}_spall"):
+            raise_first(find_row(bearing, ring))
 
 
 def _find_in_rows(b: Any) -> Iterator[Finding]:

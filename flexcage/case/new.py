@@ -13,6 +13,7 @@ import numpy as np
 
 from flexcage.bearings.family import in_motion, inference_of
 from flexcage.cages.cage_type import proposal_of
+from flexcage.cages.halves import is_one_piece
 from flexcage.case.case import load_case
 from flexcage.case.marked import of_mark, rolling, unmarked
 from flexcage.case.presets import NAMED
@@ -290,7 +291,9 @@ def _in_its_row(proposed: ProposedCage, bearing: Bearing) -> ProposedCage:
     """The cage of a row, narrower where those of two rows would overlap."""
     cage = proposed.cage
     apart = float(np.ptp([row.place for row in bearing.row_places]))
-    if bearing.row_count == 1 or 2.0 * (cage.axial_width - cage.axial_reach) <= apart:
+    if bearing.row_count == 1 or is_one_piece(cage, bearing.row_places):
+        return proposed
+    if 2.0 * (cage.axial_width - cage.axial_reach) <= apart:
         return proposed
     reasons = {**proposed.reasons, "width": "assumption: the cages of both rows meet in the middle"}
     narrower: dict[str, Any] = {"width": round(apart, 6)}  # a key of all that two rows may have
@@ -306,6 +309,8 @@ def _cage(
     model = ("model", '"flexible"', "")
     if bearing.row_count > 1:
         model = ("model", '"rigid"', "one cage for both rows, each half as follows")
+        if is_one_piece(proposed.cage, bearing.row_places):
+            model = ("model", '"rigid"', '"flexible" meshes it and finds its modes')
     return [
         model,
         *_entries(proposed.cage, {"type": "", **proposed.reasons}),

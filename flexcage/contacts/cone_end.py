@@ -1,5 +1,5 @@
-"""Tapered roller's spherical end against the large rib, whose face is a cone: one sphere more of
-those that ``cone`` has as slices.
+"""Tapered roller's spherical end against a rib, whose face is a cone: one sphere more of those that
+``cone`` has as slices. Small ends, which are flat, count as spheres as flat as the large ones.
 
 Its friction acts at the middle of the spot; the end's turning on its own spot is left out.
 """

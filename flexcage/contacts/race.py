@@ -64,6 +64,7 @@ class RaceSide(NamedTuple):
     wave: np.ndarray  # (3,) and
     spall: np.ndarray  # (5,) as in ``contacts.uneven``
     spalled: np.ndarray  # (ns,) share of each slice that lies over the spall
+    row: int  # row of rollers that the spall is of
     uneven: int  # 1 if there is a wave or a spall (records hold no booleans)
     spot: np.ndarray  # (5,) of the roller that has one, as a spall's on it
     spotted: np.ndarray  # (ns,) share of each slice that lies on the spot
@@ -265,10 +266,12 @@ def theta_at(pose, y, z):
 
 
 @part
-def _unevenness(side, phi, k):
-    """How much larger the race's radius is at azimuth ``phi`` [rad] on the ring, under slice k,
-    and its slope over phi [m, m/rad]."""
+def _unevenness(side, phi, k, row):
+    """How much larger the race's radius is at azimuth ``phi`` [rad] on the ring, under slice k of a
+    roller of a ``row``, and its slope over phi [m, m/rad]."""
     rise, slope = wave_at(side.wave, phi)
+    if row != side.row:
+        return rise, slope
     sunk, steep = spall_depth(side.spall, phi)
     outwards = -side.sign * side.spalled[k]
     return rise + outwards * sunk, slope + outwards * steep
@@ -282,7 +285,7 @@ def _add_unevenness(first, pose, side, distance, ring_spin, theta, sl):
     for k in range(side.s.shape[0]):
         at = first + np.uint64(k)
         phi = theta_at(pose, side.sign * sl.n2[at], side.sign * sl.n3[at]) - theta
-        rise, slope = _unevenness(side, phi, k)
+        rise, slope = _unevenness(side, phi, k, pose.spot[2])
         # a race of radius R + rise(phi): d and d' change by sign rise and sign rise' phi'
         sl.d[at] += side.sign * rise
         sl.v[at] += side.sign * slope * turn
@@ -292,7 +295,7 @@ def _add_unevenness(first, pose, side, distance, ring_spin, theta, sl):
 def _slope_along_race(pose, side, P, n, theta, k):
     """Slope of the penetration along the race, dd/(d dtheta), on an uneven race."""
     phi = theta_at(pose, side.sign * n[1], side.sign * n[2]) - theta
-    return side.sign * _unevenness(side, phi, k)[1] / sqrt(P[1] * P[1] + P[2] * P[2])
+    return side.sign * _unevenness(side, phi, k, pose.spot[2])[1] / sqrt(P[1] * P[1] + P[2] * P[2])
 
 
 @part

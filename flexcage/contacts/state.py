@@ -33,8 +33,8 @@ class RollerPose(NamedTuple):
     axis: np.ndarray  # (3, 3) rows: roller axis, its two transverse axes (non-spinning), in F
     V: np.ndarray  # (3,) velocity in F
     w: np.ndarray  # (3,) angular velocity in F
-    # (2,) 1 if it has a spot, and its middle's angle [rad] from the first transverse axis to the
-    # second
+    # (3,) 1 if it has a spot, its middle's angle [rad] from the first transverse axis to the
+    # second, and the row of the roller
     spot: np.ndarray
 
 
@@ -56,7 +56,7 @@ class CageModes(NamedTuple):
 
 
 def new_pose() -> RollerPose:
-    return RollerPose(np.zeros((3, 3)), np.zeros((3, 3)), np.zeros(3), np.zeros(3), np.zeros(2))
+    return RollerPose(np.zeros((3, 3)), np.zeros((3, 3)), np.zeros(3), np.zeros(3), np.zeros(3))
 
 
 def new_pair() -> Pair:
@@ -96,7 +96,6 @@ def keep_pose(pose, rows):
         for k in range(3):
             rows[j, k], rows[KEPT_AXES + j, k] = pose.F[j, k], pose.axis[j, k]
         rows[KEPT_V, j], rows[KEPT_W, j] = pose.V[j], pose.w[j]
-    for j in range(2):
         rows[KEPT_SPOT, j] = pose.spot[j]
 
 
@@ -107,7 +106,6 @@ def take_pose(rows, pose):
         for k in range(3):
             pose.F[j, k], pose.axis[j, k] = rows[j, k], rows[KEPT_AXES + j, k]
         pose.V[j], pose.w[j] = rows[KEPT_V, j], rows[KEPT_W, j]
-    for j in range(2):
         pose.spot[j] = rows[KEPT_SPOT, j]
 
 

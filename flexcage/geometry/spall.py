@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from math import pi
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from flexcage.core.spec import GIVEN, quantity
+from flexcage.core.spec import GIVEN, option, quantity
 from flexcage.core.units import mm, typeset
 
 if TYPE_CHECKING:
@@ -44,6 +44,9 @@ class Spall:
         "mm", 0.0, doc="axial distance of its middle from the race's",
         when={**_IS, "width": GIVEN},
     )  # fmt: skip
+    row: int = option(
+        0, doc="row that it is of: 0, at -x, or 1 in bearings of two rows", minimum=0, when=_IS
+    )
 
     def covered(self, centres: np.ndarray, slice_width: float) -> np.ndarray:
         """Share (n,) of slices of a roller that stands in the middle of the race, by the axial
@@ -63,10 +66,16 @@ class Spall:
         """A sentence on a spall of the "inner" or "outer" race; empty if there is none."""
         if not self.length:
             return ""
+        of_row = f" in row {self.row}" if self.row else ""
         return (
-            f" The {race} race has a spall of {typeset(self.length, 'mm')}, "
+            f" The {race} race has a spall{of_row} of {typeset(self.length, 'mm')}, "
             f"{typeset(self.depth, 'um')} deep, at {typeset(self.azimuth, 'deg')}."
         )
+
+
+def spalls_in_words(b: Any) -> str:
+    """Sentences on the spalls of both races of a bearing; empty if there are none."""
+    return "".join(getattr(b, f"{ring}_spall").in_words(ring) for ring in ("inner", "outer"))
 
 
 def covered(
@@ -82,11 +91,22 @@ def covered(
     return np.clip(over / slice_width, 0.0, 1.0)
 
 
+def find_row(b: Bearing, ring: str) -> Iterator[tuple[str, str]]:
+    """A row of a ring's spall that the bearing has not; where, and in a sentence."""
+    spall, where = getattr(b, f"{ring}_spall"), f"bearing.{ring}_spall.row"
+    if not spall.length or spall.row < b.row_count:
+        return
+    one = "this bearing has one row of elements; leave it out"
+    more = "rows are 0, at -x, and 1, at +x"
+    yield where, f"{where} is {spall.row}, but {one if b.row_count == 1 else more}."
+
+
 def find_in_spall(b: Bearing, ring: str, radius: float, reach: float) -> Iterator[tuple[str, str]]:
     """What is impossible in the spall of the "inner" or "outer" ring's race, of a radius [m] about
     the bearing's axis, to which elements reach from its middle [m]; where, and in a sentence."""
     spall, where = getattr(b, f"{ring}_spall"), f"bearing.{ring}_spall"
     pitch, most = 2.0 * pi * radius / b.element_count, 0.1 * b.element_diameter
+    yield from find_row(b, ring)
     if spall.length >= pitch:
         yield (
             f"{where}.length",

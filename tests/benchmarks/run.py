@@ -19,7 +19,7 @@ EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 sys.path[:0] = [str(Path(__file__).parent)]
 WHAT = (
     "solver", "fe", "peer", "exudyn", "scale", "study", "ball", "methods", "start", "own", "whole",
-    "machine", "dataset", "shards",
+    "machine", "dataset", "shards", "rollers",
 )  # fmt: skip
 # of the case, with --quick
 QUICK = {"mesh.fineness": "coarse", "mesh.order": 1, "cage.model": "rigid"}

@@ -13,7 +13,7 @@ PAGES = [
     Path(__file__).with_name(name)
     for name in ("README.md", "peers.md", "methods.md", "large_studies.md")
 ]
-FAST = ("solver", "fe", "scale", "ball", "methods", "start", "own", "machine")
+FAST = ("solver", "fe", "scale", "ball", "methods", "start", "own", "machine", "rollers")
 SLOW = {
     "peer": "sksundae",
     "exudyn": "exudyn",

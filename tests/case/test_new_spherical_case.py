@@ -2,14 +2,17 @@
 
 from math import radians, tan
 
+import numpy as np
 import pytest
 
-from flexcage import load_static
+from flexcage import load_case, load_static, simulate
+from flexcage.bearings.spherical_roller.start import LOOSE
 from flexcage.case import catalogue
 from flexcage.case.new import new_case
 from flexcage.cli import main
 from flexcage.core.errors import InputError
 from flexcage.geometry.inference import Outline, ranked
+from flexcage.stages import assembled_start, bearing_in_motion
 from flexcage.static import solve_static
 
 SPHERICAL = [
@@ -81,13 +84,32 @@ def test_a_written_case_of_barrels_is_solved(tmp_path, capsys):
     said = " ".join(capsys.readouterr().out.split())
     assert "16 barrel rollers of 10.7 x 8.5 mm on 61.36 mm" in said
     text = file.read_text("utf-8")
-    assert "# flexcage static 22208.toml" in text and "[cage]" not in text and "radial =" in text
+    assert "# flexcage run 22208.toml" in text and 'type = "barrel"' in text and "radial =" in text
     found = solve_static(load_static(file))
     assert found.ratings.static == pytest.approx(90e3, rel=2e-3)
     assert main(["static", str(file), "-o", str(tmp_path / "out")]) == 0
     assert (tmp_path / "out/section.png").stat().st_size > 20_000
-    assert main(["run", str(file)]) == 2
-    assert "motion of spherical roller bearings is not computed" in capsys.readouterr().err
+
+
+@pytest.mark.slow
+def test_a_written_case_of_barrels_runs(tmp_path):
+    case = load_case(new_case(catalogue.find("22208").outline, "given").text)
+    run = simulate(case.replace({"solver.duration": "2 ms"}), tmp_path / "run")
+    assert run.summary.row("energy_audit").value == "passed"
+    rolls = case.bearing.kinematics(case.drive.speed)
+    assert run.summary["cage_speed"] == pytest.approx(rolls.cage_speed, rel=0.02)
+    assert (run.dataset["row"].values == np.repeat([0, 1], 16)).all()
+    skew = run.dataset["element_tilt"].sel(tilt="skew").isel(time=-1).values
+    assert np.abs(skew).max() < 0.05  # pockets hold them
+
+
+def test_a_full_complement_of_barrels_is_warned_of(tmp_path, capsys):
+    file = tmp_path / "full.toml"
+    assert main(["new", "22208", "--cage", "none", "-o", str(file)]) == 0
+    assert "17 barrel rollers" in capsys.readouterr().out
+    case = load_case(file)
+    start = assembled_start(case, bearing_in_motion(case, None, None))
+    assert start.warnings == (LOOSE,)
 
 
 @pytest.mark.parametrize(
@@ -132,7 +154,6 @@ def ranked_clearance(outline):
         (["22220"], "'22220' is not in the catalogue; the nearest known"),
         (["29412"], "a spherical roller thrust bearing; flexcage has none"),
         (["22208", "--cage", "window"], "no cage of type 'window' for barrel rollers"),
-        (["22208", "--cage", "none"], "not computed yet"),
     ],
 )
 def test_what_there_is_not_of_spherical_bearings_is_said(arguments, words, tmp_path, capsys):

@@ -118,7 +118,7 @@ def race(
     of the roller's own, if it has one."""
     pose = pose_of(np.eye(3) if axis is None else axis, V, w, azimuth)
     if spot is not None:
-        pose.spot[:] = 1.0, spot
+        pose.spot[:2] = 1.0, spot
     pair, sums = new_pair(), np.zeros(N_SUMS)
     rw = race_work(len(side.s))  # contact 0 of the lot is one that does not touch
     rw.partner[1] = P, b, Vr, wr

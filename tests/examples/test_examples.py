@@ -25,6 +25,7 @@ TESTED = {
     "ex11_diagnosis",
     "ex12_tapered",
     "ex13_tapered_run",
+    "ex15_spherical_run",
     "ex14_spherical",
 }
 
@@ -74,6 +75,12 @@ def test_spherical_example(capsys):
 def test_tapered_rollers_run(capsys):
     ratio, skew = example("ex13_tapered_run").main(**{"solver.duration": "2 ms"})
     assert ratio == pytest.approx(1.0, abs=0.01) and skew > 0.0
+    assert "askew" in capsys.readouterr().out
+
+
+def test_barrels_run(capsys):
+    ratio, skew = example("ex15_spherical_run").main(**{"solver.duration": "2 ms"})
+    assert ratio == pytest.approx(1.0, abs=0.01) and skew > 0.5
     assert "askew" in capsys.readouterr().out
 
 

@@ -29,7 +29,7 @@ from flexcage.geometry.hertz import PointContact
 from flexcage.geometry.life.iso281 import BALLS, Endurance
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.other_kinds import SURROUNDINGS
-from flexcage.geometry.spall import BY_RACE, Spall
+from flexcage.geometry.spall import BY_RACE, Spall, spalls_in_words
 from flexcage.geometry.waviness import waviness, waviness_azimuth, waviness_order
 
 if TYPE_CHECKING:
@@ -306,7 +306,7 @@ class BallBearing(Bearing):
             f"{typeset(self.clearance, 'um', digits=4)}; "
             f"the grooves' radii are {self.inner_conformity:.4g} (inner) and "
             f"{self.outer_conformity:.4g} (outer) times the ball's diameter."
-            f"{self.inner_spall.in_words('inner')}{self.outer_spall.in_words('outer')}"
+            f"{spalls_in_words(self)}"
             f"{self.ball_spot.in_words()}"
         )
 

@@ -21,7 +21,7 @@ from flexcage.geometry.life.iso281 import ROLLERS, Endurance
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.other_kinds import SURROUNDINGS
 from flexcage.geometry.rollers import B_M, OfRollers, RollerProfile
-from flexcage.geometry.spall import BY_RACE, Spall
+from flexcage.geometry.spall import BY_RACE, Spall, spalls_in_words
 from flexcage.geometry.waviness import waviness, waviness_azimuth, waviness_order
 
 if TYPE_CHECKING:
@@ -300,6 +300,6 @@ class RollerBearing(OfRollers, Bearing):
             f"{self.name_and_size} with {self.roller_count} "
             f"rollers of {typeset(self.roller_diameter, 'mm')}{self.of_what}, radial clearance "
             f"{typeset(self.radial_clearance, 'um')}."
-            f"{self.inner_spall.in_words('inner')}{self.outer_spall.in_words('outer')}"
+            f"{spalls_in_words(self)}"
             f"{self.roller_spot.in_words()}"
         )

@@ -48,10 +48,20 @@ from flexcage.system.spec import Drive, Load, Mount
 
 
 class SpottedRollers(NamedTuple):
-    """Which rollers have a spot."""
+    """Which rollers have a spot, and of which row each is."""
 
     has: np.ndarray  # (Z,) 1 or 0
     angle: float  # of its middle [rad] while the roller's spin angle is zero
+    row: np.ndarray  # (Z,) 0 at -x
+
+
+def spotted_rollers(bearing: Any) -> SpottedRollers:
+    """Those of a bearing with ``roller_spot``."""
+    spot, rows = bearing.roller_spot, np.arange(bearing.row_count)
+    return SpottedRollers(
+        marked(bearing.total_elements, spot.rollers), spot.angle,
+        np.repeat(rows, bearing.element_count),
+    )  # fmt: skip
 
 
 class RollerRows(NamedTuple):
@@ -96,6 +106,7 @@ def _race_side(bearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool
     equivalent = rw * radius / (radius + sign * rw)
     modulus = bearing.race_modulus
     wave, spall = uneven_race(bearing, "inner" if inner else "outer", radius, equivalent)
+    own = bearing.inner_spall if inner else bearing.outer_spall
     stiffness = laws.iso_line_stiffness(bearing.effective_length, modulus)
     return RaceSide(
         sign=sign,
@@ -110,9 +121,8 @@ def _race_side(bearing, contacts: Contacts, lubricant: Lubricant, *, inner: bool
         hydro=2.0 * equivalent / rw,
         wave=wave,
         spall=spall,
-        spalled=(bearing.inner_spall if inner else bearing.outer_spall).covered(
-            s, bearing.effective_length / contacts.race.slices
-        ),
+        spalled=own.covered(s, bearing.effective_length / contacts.race.slices),
+        row=own.row,
         uneven=is_uneven(wave, spall),
         spot=bearing.roller_spot.dimensions(rw, equivalent, spread(equivalent, modulus)),
         spotted=bearing.roller_spot.covered(s, bearing.effective_length / contacts.race.slices),
@@ -311,7 +321,6 @@ def build_roller_model(
     scatter = bearing.roller_scatter * np.random.default_rng(seed).standard_normal(
         bearing.total_elements
     )
-    spot = bearing.roller_spot
     return RollerModel(
         bodies=bodies_of(
             bearing, cage, lubricant, drive, load,
@@ -333,7 +342,7 @@ def build_roller_model(
         neighbours=roller_roller_data(
             bearing, contacts, *slice_grid(bearing, contacts.race.slices)
         ),
-        spot=SpottedRollers(marked(bearing.total_elements, spot.rollers), spot.angle),
+        spot=spotted_rollers(bearing),
         land=_land(bearing, cage, contacts, lubricant, interface) if cage else no_land(),
         rows=RollerRows(
             bearing.roller_count, _places_of_rows(bearing), bearing.element_azimuths

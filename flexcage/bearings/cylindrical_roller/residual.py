@@ -135,6 +135,7 @@ def set_bodies(y, d, mode):
         set_pose(q[own], u[own], pose)
         pose.spot[0] = fields(d.spot).has[i]
         pose.spot[1] = fields(d.spot).angle + q[own][Q_SPIN]
+        pose.spot[2] = fields(d.spot).row[i]
         keep_pose(pose, work.poses[i])
 
 

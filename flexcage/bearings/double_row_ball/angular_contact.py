@@ -17,6 +17,7 @@ from flexcage.bearings.two_rows import (
 from flexcage.core.spec import option, quantity
 from flexcage.core.units import typeset
 from flexcage.geometry.bearing import Bearing, RowPlace, type_name
+from flexcage.geometry.spall import spalls_in_words
 
 if TYPE_CHECKING:
     from flexcage.geometry.fits.changed import Changed
@@ -78,4 +79,5 @@ class DoubleRowAngularContactBallBearing(RowFields, AngularContactBallBearing):
             f"{self.arrangement.replace('_', ' ')}, free contact angle "
             f"{typeset(self.free_contact_angle, 'deg', digits=4)}, axial clearance "
             f"{typeset(self.axial_clearance, 'um', digits=4)}."
+            f"{spalls_in_words(self)}{self.ball_spot.in_words()}"
         )

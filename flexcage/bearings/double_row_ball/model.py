@@ -77,10 +77,11 @@ def build_double_row_model(
     grooves = {
         f"{ring}{name}": _in_row(
             groove_of(bearing.row, contacts, lubricant, inner=ring == "inner"), place,
-            late=bearing.late if ring == "inner" else 0.0, spalled=not name,
+            late=bearing.late if ring == "inner" else 0.0,
+            spalled=getattr(bearing, f"{ring}_spall").row == row,
         )
         for ring in ("inner", "outer")
-        for name, place in zip(("", "_other"), bearing.row_places)
+        for row, (name, place) in enumerate(zip(("", "_other"), bearing.row_places))
     }  # fmt: skip
     own = balls._asdict() | grooves
     return DoubleRowModel(**own, rows=BallRows(bearing.element_count, int(_meet(bearing))))
@@ -88,7 +89,7 @@ def build_double_row_model(
 
 def _in_row(groove: Groove, place: RowPlace, *, late: float, spalled: bool) -> Groove:
     """The groove of a row's own bearing where the row stands; ``late`` [m]: how much further the
-    ring goes before the row bears. A spall is one of the first row."""
+    ring goes before the row bears; is the ring's spall one of the row?"""
     spall = groove.spall if spalled else np.zeros_like(groove.spall)
     return groove._replace(
         axial=place.place + place.sense * (groove.axial - late), spall=spall,

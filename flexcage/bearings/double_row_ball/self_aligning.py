@@ -15,6 +15,7 @@ from flexcage.bearings.two_rows import RowFields, single
 from flexcage.core.spec import quantity
 from flexcage.core.units import typeset
 from flexcage.geometry.bearing import RowPlace, type_name
+from flexcage.geometry.spall import spalls_in_words
 
 if TYPE_CHECKING:
     from flexcage.geometry.fits.changed import Changed
@@ -123,4 +124,5 @@ class SelfAligningBallBearing(RowFields, BallBearing):
             f"{typeset(self.ball_diameter, 'mm')}{self.of_what} on a sphere, contact angle "
             f"{typeset(self.nominal_contact_angle, 'deg', digits=4)}, radial clearance "
             f"{typeset(self.radial_clearance, 'um', digits=4)}."
+            f"{spalls_in_words(self)}{self.ball_spot.in_words()}"
         )

@@ -11,6 +11,7 @@ from flexcage.bearings.two_rows import RowFields, single
 from flexcage.core.units import typeset
 from flexcage.geometry.bearing import RowPlace, type_name
 from flexcage.geometry.rollers import STATIC_PRESSURE
+from flexcage.geometry.spall import spalls_in_words
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,4 +50,5 @@ class DoubleRowRollerBearing(RowFields, RollerBearing):
             f"{self.name_and_size} with two rows of {self.roller_count} rollers of "
             f"{typeset(self.roller_diameter, 'mm')}{self.of_what}, radial clearance "
             f"{typeset(self.radial_clearance, 'um')}."
+            f"{spalls_in_words(self)}{self.roller_spot.in_words()}"
         )

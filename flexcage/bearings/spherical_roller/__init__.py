@@ -23,6 +23,7 @@ FAMILY = Family(
     rubbing=None,
     shapes=lambda: slots.shapes,
     inside=lambda: slots.inside,
+    losses=lambda: slots.losses,
     catalogue=f"{__name__}.catalogue",
     built_on="tapered_roller",
 )

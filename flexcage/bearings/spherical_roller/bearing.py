@@ -91,6 +91,11 @@ class SphericalRollerBearing(RowFields, OfInclinedRollers, Bearing):
     )
 
     @property
+    def one_row(self) -> SphericalRollerBearing:
+        """Itself: both rows have one cage, whose keys are those of a half."""
+        return self
+
+    @property
     def axis_angle(self) -> float:
         return self.contact_angle
 

@@ -139,5 +139,5 @@ def _reasons(outline: Outline, rings: _Rings, b: SphericalRollerBearing) -> Mapp
 
 
 INFERENCE = Inference(
-    candidates=candidates, cages={name_of(SphericalRollerBearing): ""}, count="roller_count"
+    candidates=candidates, cages={name_of(SphericalRollerBearing): "barrel"}, count="roller_count"
 )

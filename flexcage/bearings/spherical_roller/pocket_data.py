@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,6 +12,7 @@ from flexcage.bearings.spherical_roller.statics import slice_places
 from flexcage.bearings.tapered_roller.pocket_data import no_frames, on_faces, own_axes
 from flexcage.bearings.two_rows import ROWS
 from flexcage.cages.conical.walls import pocket_walls
+from flexcage.cages.halves import signs_of
 from flexcage.contacts.cone_pocket import FaceFrames
 from flexcage.contacts.pocket_wall import SIDES, PocketData
 from flexcage.contacts.spec import Contacts
@@ -26,10 +26,10 @@ def row_frames(b: SphericalRollerBearing, cage: Any) -> tuple[FaceFrames, FaceFr
     own = own_axes(pocket_walls(cage)) @ cage.axes
     first, second = (
         FaceFrames(
-            axes=np.ascontiguousarray(own * (row.sense, 1.0, 1.0) * [[1.0], [row.sense], [1.0]]),
+            axes=np.ascontiguousarray(own * (sign, 1.0, 1.0) * [[1.0], [sign], [1.0]]),
             origin=0.5 * cage.pitch_diameter, whole=0.5 * b.roller_diameter, taper=0.0,
         )
-        for row in b.row_places
+        for sign in signs_of(cage, b.row_places)
     )  # fmt: skip
     return first, second
 
@@ -38,7 +38,6 @@ def barrel_pocket_data(
     b: SphericalRollerBearing, cage: Any, contacts: Contacts, interface: CageInterface
 ) -> PocketData:
     """Arrays of the pockets, as ``tapered_roller.pocket_data``, the row at -x first."""
-    interface = _in_both_rows(interface, b.roller_count)
     walls, frames, half = pocket_walls(cage), row_frames(b, cage), 0.5 * b.roller_diameter
     s, reach = b.roller.spheres(slice_places(b, contacts.pocket.slices))
     points = points_over(cage.section.inside, cage.section.outside, b.roller_diameter)
@@ -61,12 +60,3 @@ def barrel_pocket_data(
         interface, modes, on_faces(walls, interface.stations), on_faces(walls, at), contacts,
         b.element_azimuths, **known,
     )  # fmt: skip
-
-
-def _in_both_rows(interface: CageInterface, count: int) -> CageInterface:
-    """An interface of one row's pockets, ``count``, as one of both rows; else itself."""
-    if len(interface.offset) != count:
-        return interface
-    names = ("offset", "modes", "residual", "compliance")
-    twice: dict[str, Any] = {n: np.concatenate([getattr(interface, n)] * ROWS) for n in names}
-    return replace(interface, **twice)

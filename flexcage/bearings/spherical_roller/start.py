@@ -17,16 +17,18 @@ from scipy.spatial.transform import Rotation
 
 from flexcage.bearings.spherical_roller.bearing import SphericalRollerBearing
 from flexcage.bearings.spherical_roller.model import SphericalModel
-from flexcage.bearings.spherical_roller.statics import Barrels, meeting
+from flexcage.bearings.spherical_roller.statics import barrel_rows, settled_in
 from flexcage.bearings.tapered_roller.start import balanced, said_of
-from flexcage.bearings.two_rows import rows_from
 from flexcage.contacts.laws import STIFFNESS
 from flexcage.system.begun import Advance, Start, StaticStart
 from flexcage.system.problem import BearingSystem
-from flexcage.system.statics.equilibrium import Problem, nearest, settle
 from flexcage.system.statics.slices import rolling_of
 from flexcage.system.statics.solution import StaticSolution
 
+LOOSE = (
+    "Without a cage nothing keeps barrels that bear nothing from turning ever further askew, in "
+    "milliseconds; give a [cage], or look at the run's beginning alone."
+)
 _SOON = 1e-6  # s, over which velocities are differenced
 
 
@@ -54,7 +56,8 @@ def spherical_start(
     y, residual = balanced(bearing, y, rolling, skews=False)
     yd = rolling(y)
     station = np.zeros_like(bearing.data.work.report.station)
-    return Start(y, yd, (), 0.0, residual, station, (*solution.warnings, *said_of(residual)))
+    warnings = (*solution.warnings, *said_of(residual), *(() if layout.has_cage else (LOOSE,)))
+    return Start(y, yd, (), 0.0, residual, station, warnings)
 
 
 def settled_barrels(
@@ -65,13 +68,8 @@ def settled_barrels(
     n, v = len(model.inner.s), np.zeros(5)
     v[:3] = turn.apply(solution.displacement[:3] - solution.outer[:3], inverse=True)
     stiffness = [model.inner.normal[STIFFNESS], model.outer.normal[STIFFNESS]]
-    rows = rows_from(spec, Barrels(
-        bearing=spec, meeting=meeting(spec, n), stiffness=np.repeat(stiffness, n),
-        rolling=rolling_of(spec, solution.speed, None), rating=spec.dynamic_rating,
-    ))  # fmt: skip
-    problem = Problem(rows, solution.load, np.zeros(5, bool), v, np.zeros(5))
-    at = problem.at_azimuths @ v
-    return settle(problem, at, nearest(problem, at, None, 0.0), 0.0)[0]
+    rows = barrel_rows(spec, np.repeat(stiffness, n), speed=solution.speed)
+    return settled_in(rows, v, solution.load)
 
 
 def barrels_in_space(

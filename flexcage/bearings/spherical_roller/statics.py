@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -21,10 +22,12 @@ from flexcage.bearings.two_rows import ROWS, rows_from
 from flexcage.contacts.spec import Contacts
 from flexcage.geometry.kinematics import Kinematics
 from flexcage.geometry.rollers import LINE_EXPONENT
+from flexcage.system.statics.equilibrium import Problem, nearest, settle
 from flexcage.system.statics.laws import check_law
-from flexcage.system.statics.options import StaticOptions
+from flexcage.system.statics.options import AT_START, StaticOptions
 from flexcage.system.statics.rows import Rows
 from flexcage.system.statics.slices import Meeting, RollerPlane, SlicedRollers, rolling_of
+from flexcage.system.statics.state import StaticState
 
 
 def rollers_of(
@@ -37,15 +40,46 @@ def rollers_of(
     check_law(race.law, "contacts.race.normal.law", "rollers on races by ISO/TS 16281")
     n = contacts.race.slices
     line = iso_line_stiffness(bearing.effective_length, bearing.race_modulus)
+    stiffness = np.full(2 * n, line * race.stiffness_factor / n)
+    return barrel_rows(bearing, stiffness, speed=speed, options=options)
+
+
+def barrel_rows(
+    bearing: SphericalRollerBearing, stiffness: np.ndarray, *, speed: float,
+    options: StaticOptions = AT_START,
+) -> Rows:  # fmt: skip
+    """Rollers of both rows with slices of such ``stiffness`` (2n,) [N/m^(10/9)]."""
     rating = options.dynamic_rating or bearing.dynamic_rating
     row = Barrels(
-        bearing=bearing,
-        meeting=meeting(bearing, n),
-        stiffness=np.full(2 * n, line * race.stiffness_factor / n),
+        bearing=bearing, meeting=meeting(bearing, len(stiffness) // 2), stiffness=stiffness,
         rolling=rolling_of(bearing, speed, options.cage_speed),
         rating=rating / ROWS**bearing.row_power,
-    )
+    )  # fmt: skip
     return rows_from(bearing, row)
+
+
+def settled_in(rows: Rows, ring: np.ndarray, load: np.ndarray) -> np.ndarray:
+    """Coordinates w (2Z, 3) of rollers in equilibrium with the inner ring displaced by (5,), under
+    a load (5,) by which forces are measured."""
+    problem = Problem(rows, load, np.zeros(5, bool), ring, np.zeros(5))
+    at = problem.at_azimuths @ ring
+    return settle(problem, at, nearest(problem, at, None, 0.0), 0.0)[0]
+
+
+def slice_forces(
+    bearing: SphericalRollerBearing, solution: StaticState, contacts: Contacts
+) -> np.ndarray:
+    """Forces (2Z, 2, n) [N] of the slices of all rollers on inner and outer race, from the
+    bearing's -x to its +x in the row there, and in the other one the other way."""
+    rows = rollers_of(bearing, speed=solution.speed, contacts=contacts, options=AT_START)
+    ring = solution.displacement - solution.outer
+    own, found = settled_in(rows, ring, solution.load), []
+    at = Problem(rows, solution.load, np.zeros(5, bool), ring, np.zeros(5)).at_azimuths @ ring
+    for k, row in enumerate(rows.rows):
+        part = slice(k * bearing.roller_count, (k + 1) * bearing.roller_count)
+        barrels: Any = row.elements
+        found.append(np.stack(barrels.slice_forces(row.own(at[part]), own[part]), axis=1))
+    return np.concatenate(found)
 
 
 def roller_plane(b: SphericalRollerBearing) -> RollerPlane:

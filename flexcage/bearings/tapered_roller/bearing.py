@@ -12,13 +12,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import atan, cos, pi, sin, sqrt
+from math import asin, atan, cos, pi, sin, sqrt
 from typing import TYPE_CHECKING, ClassVar
 
 from flexcage.bearings.cylindrical_roller.spot import RollerSpot
 from flexcage.bearings.tapered_roller.frustum import Frustum
 from flexcage.cages.conical.cage import ConicalCage
-from flexcage.core.spec import option, quantity
+from flexcage.core.spec import GIVEN, option, quantity
 from flexcage.core.units import typeset
 from flexcage.geometry.bearing import Bearing, Spec, type_name
 from flexcage.geometry.hertz import PointContact
@@ -27,7 +27,7 @@ from flexcage.geometry.life.iso281 import ROLLERS, Endurance
 from flexcage.geometry.materials import MATERIALS, Material
 from flexcage.geometry.other_kinds import SURROUNDINGS
 from flexcage.geometry.rollers import RollerProfile
-from flexcage.geometry.spall import BY_RACE, Spall
+from flexcage.geometry.spall import BY_RACE, Spall, spalls_in_words
 from flexcage.geometry.waviness import waviness, waviness_azimuth, waviness_order
 
 if TYPE_CHECKING:
@@ -82,6 +82,14 @@ class TaperedRollerBearing(OfInclinedRollers, Bearing):
     roller_count: int = option(doc="number Z of rollers", minimum=3)
     rib_height: float = quantity("mm", doc="height of the large rib over the inner race", above=0.0)
     end_radius: float = quantity("mm", doc="radius of the rollers' spherical large ends", above=0.0)
+    small_rib_height: float | None = quantity(
+        "mm", None, doc="height of the small rib over the inner race (default: no small rib)",
+        above=0.0,
+    )  # fmt: skip
+    small_rib_play: float = quantity(
+        "mm", 0.3e-3, doc="play of a roller between both ribs, along its axis", above=0.0,
+        when={"small_rib_height": GIVEN},
+    )  # fmt: skip
     profile: RollerProfile = option(RollerProfile(), doc="roller profile")
     material: Material = option(MATERIALS["GCr15"], doc="material of the rings, and of the rollers")
     element_material: Material | None = option(
@@ -186,6 +194,25 @@ class TaperedRollerBearing(OfInclinedRollers, Bearing):
         )
 
     @property
+    def small_rib_angle(self) -> float:
+        """Angle [rad] between the small rib's force, halfway up that, and the roller's axis: small
+        ends count as spheres as flat as the large ones."""
+        assert self.small_rib_height is not None
+        return asin((self.roller.ends[1] - 0.5 * self.small_rib_height) / self.end_radius)
+
+    @cached_property
+    def small_rib_contact(self) -> PointContact:
+        """Hertz contact of a roller's small end with the face of the small rib, which is vaulted as
+        that of the large one is hollow."""
+        lean, end = self.axis_angle + self.small_rib_angle, 0.5 * self.roller_length
+        radius = self.race_diameters[0] / 2.0 * (1.0 - end / self.apex_distance)
+        return PointContact(
+            rolling=1.0 / (1.0 / self.end_radius + sin(lean) / radius),
+            transverse=self.end_radius,
+            modulus=self.race_modulus,
+        )
+
+    @property
     def apex_to_end(self) -> float:
         """Distance [m] of the apex from the middle of a roller's large end: the greatest radius
         that an end may have."""
@@ -216,6 +243,6 @@ class TaperedRollerBearing(OfInclinedRollers, Bearing):
             f"{self.name_and_size} with {self.roller_count} rollers from {typeset(large, 'mm')} to "
             f"{typeset(small, 'mm')} in diameter and {typeset(self.roller_length, 'mm')} "
             f"long{self.of_what}, contact angle {angle}."
-            f"{self.inner_spall.in_words('inner')}{self.outer_spall.in_words('outer')}"
+            f"{spalls_in_words(self)}"
             f"{self.roller_spot.in_words()}"
         )

@@ -21,6 +21,7 @@ def check(b: TaperedRollerBearing, cage: Cage | None, defects: Sequence[Any]) ->
     raise_first(_find_in_lengths(b))
     raise_first(_find_between_rollers(b))
     raise_first(_find_at_rib(b))
+    raise_first(_find_at_small_rib(b))
     raise_first(_find_in_rings(b))
     for ring, diameter in zip(("inner", "outer"), b.race_diameters):
         raise_first(find_in_spall(b, ring, 0.5 * diameter, 0.5 * b.effective_length))
@@ -113,6 +114,23 @@ def _find_at_rib(b: TaperedRollerBearing) -> Iterator[Finding]:
             f"bearing.end_radius is {mm(b.end_radius)}, but must be between the radius of a "
             f"roller's large end, {mm(large)}, and its distance from the apex, "
             f"{mm(b.apex_to_end)}.",
+        )
+
+
+def _find_at_small_rib(b: TaperedRollerBearing) -> Iterator[Finding]:
+    height, small = b.small_rib_height, b.roller.ends[1]
+    if height is not None and not 2.0 * b.element_edge < height < 2.0 * small:
+        yield (
+            "bearing.small_rib_height",
+            f"bearing.small_rib_height is {mm(height)}, but must be between twice the chamfer of "
+            f"the rollers' ends, {mm(2.0 * b.element_edge)}, and their small diameter, "
+            f"{mm(2.0 * small)}: rollers touch halfway up the rib.",
+        )
+    if height is not None and b.small_rib_play > 0.1 * b.roller_length:
+        yield (
+            "bearing.small_rib_play",
+            f"bearing.small_rib_play is {mm(b.small_rib_play)}; give a tenth of the rollers' "
+            f"length, {mm(0.1 * b.roller_length)}, or less.",
         )
 
 

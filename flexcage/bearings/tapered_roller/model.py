@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from flexcage.bearings.cylindrical_roller.model import SpottedRollers
+from flexcage.bearings.cylindrical_roller.model import SpottedRollers, spotted_rollers
 from flexcage.bearings.cylindrical_roller.neighbours import roller_roller_data
 from flexcage.bearings.tapered_roller.bearing import TaperedRollerBearing
 from flexcage.bearings.tapered_roller.pocket_data import cone_pocket_data, face_frames, no_frames
@@ -26,14 +26,13 @@ from flexcage.contacts.spec import Contacts, Lubricant
 from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT
 from flexcage.contacts.uneven import is_uneven, spread, uneven_race
 from flexcage.geometry.rollers import LINE_EXPONENT
-from flexcage.geometry.spot import marked
 from flexcage.system.bodies import bodies_of, inner_ring_of, outer_ring_of, unbalanced
 from flexcage.system.data import Bodies, RingBody, Work, new_work
 from flexcage.system.layout import Layout
 from flexcage.system.spec import Drive, Load, Mount
 
 RIB_EXPONENT = 1.5  # Hertz
-LARGE_RIB = 1  # place of the rib, at -x, among a roller's two ends
+SMALL_RIB, LARGE_RIB = 0, 1  # places of the ribs, at +x and -x, among a roller's two ends
 
 
 class TaperedModel(NamedTuple):
@@ -46,6 +45,7 @@ class TaperedModel(NamedTuple):
     inner: ConeSide
     outer: ConeSide
     end: EndData
+    small_end: EndData  # of radius 0: there is no small rib
     pocket: PocketData
     neighbours: ConeConeContact
     spot: SpottedRollers
@@ -106,6 +106,27 @@ def _end(b: TaperedRollerBearing, contacts: Contacts) -> EndData:
     )
 
 
+def _small_end(b: TaperedRollerBearing, contacts: Contacts) -> EndData:
+    """The rollers' small ends, which have their play to the small rib where nothing is displaced:
+    spheres about places on the axes as far towards the large ends."""
+    if b.small_rib_height is None:
+        return EndData(0.0, 0.0, 1.0, 0.0, 0.0, np.zeros(laws.N_NORMAL), np.zeros(laws.N_FRICTION))
+    lean, rib = b.axis_angle + b.small_rib_angle, contacts.rib
+    c, sn = sin(lean), -cos(lean)
+    along = 0.5 * b.roller_length - b.end_radius
+    x, r = along * cos(b.axis_angle), b.pitch_radius - along * sin(b.axis_angle)
+    gap = b.small_rib_play * cos(b.small_rib_angle)
+    return EndData(
+        place=along - b.roller.centre,
+        radius=b.end_radius,
+        cos=c,
+        sin=sn,
+        apex=x + (c * r - b.end_radius - gap) / sn,
+        normal=laws.normal_parameters(rib.normal, b.small_rib_contact.stiffness, RIB_EXPONENT),
+        friction=laws.friction_parameters(rib.friction),
+    )
+
+
 def build_tapered_model(
     bearing: TaperedRollerBearing, cage: ConicalCage | None, body: Any, interface: Any, *,
     contacts: Contacts, lubricant: Lubricant, drive: Drive, load: Load, mount: Mount, seed: int = 0,
@@ -125,6 +146,7 @@ def build_tapered_model(
         inner=_side(bearing, contacts, lubricant, inner=True),
         outer=_side(bearing, contacts, lubricant, inner=False),
         end=_end(bearing, contacts),
+        small_end=_small_end(bearing, contacts),
         pocket=(
             cone_pocket_data(bearing, cage, contacts, interface) if cage
             else no_pockets(count, 0.5 * bearing.roller_length)
@@ -132,7 +154,7 @@ def build_tapered_model(
         neighbours=ConeConeContact(
             *roller_roller_data(bearing, contacts, *spheres(bearing, contacts.race.slices))
         ),
-        spot=SpottedRollers(marked(count, bearing.roller_spot.rollers), bearing.roller_spot.angle),
+        spot=spotted_rollers(bearing),
         land=no_land(),
         frames=face_frames(bearing, cage) if cage else no_frames(),
     )  # fmt: skip

@@ -11,6 +11,7 @@ from flexcage.bearings.cylindrical_roller.recording import RECORDING as OF_ROLLE
 from flexcage.bearings.cylindrical_roller.recording import on_races, spot_directions
 from flexcage.bearings.tapered_roller.model import TaperedModel
 from flexcage.contacts.cone import ConeSide
+from flexcage.contacts.cone_end import EndData
 from flexcage.contacts.cone_pocket import FaceFrames
 from flexcage.contacts.pocket_wall import FACES, SIDES, PocketData
 from flexcage.integrate.recording import Recording
@@ -34,19 +35,16 @@ def overlaps(model: TaperedModel, layout: Layout, y: np.ndarray) -> np.ndarray:
     at = np.stack([x, r * np.cos(psi), r * np.sin(psi)], axis=-1)
     in_inner = at - q["inner"][:, None, :3]
     in_outer = at - q["outer"][:, None, :3]
-    end = model.end
     if layout.has_cage:
         others = in_walls(model.pocket, model.frames, in_cage(q, at))
     else:
         away = np.linalg.norm(np.roll(at, -1, axis=1) - at, axis=-1)
         others = [2.0 * model.inner.whole - away]
-    none = np.full_like(x, -np.inf)
-    reach = in_inner[..., 0] + end.place * np.cos(skew) * np.cos(tilt)
-    height = np.hypot(in_inner[..., 1], in_inner[..., 2]) + end.place * np.sin(tilt)
+    lean = np.cos(skew) * np.cos(tilt), np.sin(tilt)
     depths = [
         _in_race(model.inner, in_inner), _in_race(model.outer, in_outer),
-        *others, none,
-        end.radius - end.cos * height - end.sin * (reach - end.apex),
+        *others,
+        *(_on_rib(end, in_inner, lean) for end in (model.small_end, model.end)),
     ]  # fmt: skip
     return np.stack(depths, axis=-1)
 
@@ -56,6 +54,17 @@ def _in_race(side: ConeSide, at: np.ndarray) -> np.ndarray:
     distance = np.hypot(at[..., 1], at[..., 2])
     gap: np.ndarray = distance * side.cos + (at[..., 0] - side.apex) * side.sin
     return side.whole - side.sign * gap
+
+
+def _on_rib(end: EndData, at: np.ndarray, lean: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
+    """Depths of ends in a rib, of rollers at places (..., 3) from the ring's centre whose axes are
+    ``lean`` along and across the bearing's."""
+    if end.radius == 0.0:
+        return np.full(at.shape[:-1], -np.inf)
+    reach = at[..., 0] + end.place * lean[0]
+    height = np.hypot(at[..., 1], at[..., 2]) + end.place * lean[1]
+    depth: np.ndarray = end.radius - end.cos * height - end.sin * (reach - end.apex)
+    return depth
 
 
 def in_cage(q: dict[str, np.ndarray], at: np.ndarray) -> np.ndarray:

@@ -2,7 +2,7 @@
 
 Rollers move by the equations of cylindrical ones, with their centre of mass for a centre and an
 axis that leans: their tilt is about minus the angle between both axes. Races are cones, and the
-large rib of the inner ring one more (``contacts.cone``).
+ribs of the inner ring are two more (``contacts.cone``, ``cone_end``).
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from flexcage.bearings.cylindrical_roller.residual import (
     roller_rows,
     set_bodies,
 )
-from flexcage.bearings.tapered_roller.model import LARGE_RIB
+from flexcage.bearings.tapered_roller.model import LARGE_RIB, SMALL_RIB
 from flexcage.contacts.cone import cone_penetrations, cone_wrench
 from flexcage.contacts.cone_end import end_contact
 from flexcage.contacts.evaluation import (
@@ -86,7 +86,9 @@ def _on_cone(span, q, ring, side, race, d, law, mode):
         at = rw.partner[count]
         ring_partner(i, q, ring, d, at)
         if race == INNER_RACE:
-            _on_rib(i, at, ring.b, d, law, mode)
+            _on_rib(i, LARGE_RIB, fields(d.end), at, ring.b, d, law, mode)
+            if fields(d.small_end).radius > 0.0:
+                _on_rib(i, SMALL_RIB, fields(d.small_end), at, ring.b, d, law, mode)
         if mode >= REPORT:
             _approach(i, race, ring, side, d)
         if cone_penetrations(count, pose, side, turn, memory[i, race], rw):
@@ -103,18 +105,18 @@ def _on_cone(span, q, ring, side, race, d, law, mode):
 
 
 @part
-def _on_rib(i, at, b, d, law, mode):
-    """Roller i's end on the large rib of the inner ring, its partner ``at``, whose border begins at
+def _on_rib(i, rib, end, at, b, d, law, mode):
+    """Roller i's ``end`` on a ``rib`` of the inner ring, its partner ``at``, whose border begins at
     b."""
     pose, pair, sums, rep = fields(d.pose), fields(d.pair), fields(d.scratch).sums, fields(d.report)
     laws, sl = Laws(law[RIB_LAW], law[RIB_RUBS]), fields(d.slices).row[0]
-    onset = fields(d.memory).rib[i, LARGE_RIB]
-    touches = end_contact(pose, at, fields(d.end), onset, laws, sl, pair, mode, sums)
+    onset = fields(d.memory).rib[i, rib]
+    touches = end_contact(pose, at, end, onset, laws, sl, pair, mode, sums)
     if touches:
         add_to_ring(i, at[CENTRE], b, d, mode)
     if mode >= REPORT:
-        place = POCKET + rep.pocket_normal.shape[1] + LARGE_RIB
-        rep.rib[i, LARGE_RIB], rep.approach[i, place] = sums[NORMAL], sums[APPROACH]
+        place = POCKET + rep.pocket_normal.shape[1] + rib
+        rep.rib[i, rib], rep.approach[i, place] = sums[NORMAL], sums[APPROACH]
         rep.contact[i, place] = 1 if sums[NORMAL] > 0.0 else 0
         rep.energy[IN_CONTACTS] += sums[STORED]
         rep.power[RIB_DAMPING] += sums[DAMPED]

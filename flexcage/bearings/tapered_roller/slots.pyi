@@ -3,6 +3,7 @@ from flexcage.bearings.tapered_roller.inference import INFERENCE as inside
 from flexcage.bearings.tapered_roller.losses import tapered_losses as losses
 from flexcage.bearings.tapered_roller.motion import MOTION as motion
 from flexcage.bearings.tapered_roller.recording import RECORDING as recording
+from flexcage.bearings.tapered_roller.rubbing import rubbing as rubbing
 from flexcage.bearings.tapered_roller.shapes import tapered_shapes as shapes
 from flexcage.bearings.tapered_roller.slip import SPEED as speed
 from flexcage.bearings.tapered_roller.statics import rollers_of as statics
@@ -14,6 +15,7 @@ __all__ = [
     "losses",
     "motion",
     "recording",
+    "rubbing",
     "shapes",
     "speed",
     "statics",
