@@ -111,7 +111,9 @@ def build_spherical_model(
             else no_pockets(count, 0.5 * bearing.roller_length)
         ),
         neighbours=ConeConeContact(*roller_roller_data(bearing, contacts, *spheres)),
-        spot=SpottedRollers(np.zeros(count, np.int64), 0.0, np.arange(count) // bearing.roller_count),
+        spot=SpottedRollers(
+            np.zeros(count, np.int64), 0.0, np.arange(count) // bearing.roller_count
+        ),
         land=no_land(),
         rows=RollerRows(
             bearing.roller_count,
