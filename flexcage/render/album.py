@@ -351,7 +351,9 @@ def _stress(scene: Scene, s: StressPictures, look: Look) -> Iterator[Drawing]:
     )
 
     assert scene.mesh is not None, "stress is that of a cage"
-    t = scene.dataset["time"].values
+    t, bearing = scene.dataset["time"].values, scene.bearing
+    if scene.dataset.sizes["element"] < bearing.total_elements:  # a row with a cage of its own
+        bearing = bearing.one_row
     seen: dict[str, Any] = {
         "pocket_count": scene.mesh.pocket_count, "azimuth": look.azimuth, "note": scene.label,
     }  # fmt: skip
@@ -364,9 +366,9 @@ def _stress(scene: Scene, s: StressPictures, look: Look) -> Iterator[Drawing]:
     ))  # fmt: skip
     yield Drawing("stress_pocket", "png", partial(
         pocket_picture, s.nodes, s.cells, s.displacement, s.von_mises,
-        shown=instant(scene.dataset, int(np.argmin(np.abs(t - s.time)))), bearing=scene.bearing,
+        shown=instant(scene.dataset, int(np.argmin(np.abs(t - s.time)))), bearing=bearing,
         pitch_radius=float(scene.dataset["element_position"][0].sel(cyl="r").mean()),
-        pocket=nearest_pocket(s.nodes[s.peak_vertex], scene.bearing),
+        pocket=nearest_pocket(s.nodes[s.peak_vertex], bearing),
         limit=look.stress_limit, note=scene.label,
     ))  # fmt: skip
     yield Drawing("stress_envelope", "png", partial(
