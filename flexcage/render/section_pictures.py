@@ -27,7 +27,8 @@ def has_section(bearing: Any) -> bool:
 def section_picture(bearing: Any, path: str | Path, *, title: str = "", note: str = "") -> Path:
     """The half of a bearing of rows above its axis, in mm, with the lines of contact; ``note`` says
     whose it is."""
-    shapes, angle = shapes_of(bearing), getattr(bearing, "axis_angle", 0.0)
+    shapes = shapes_of(bearing)
+    angle = getattr(bearing, "axis_angle", bearing.nominal_contact_angle)  # of elements, of balls
     with sheet.style():
         figure = sheet.new_figure(2 * _LEFT + _SIDE, _TOP + _SIDE + 90)
         sheet.heading(figure, title or "Section through the axis", sheet.label(note))
@@ -36,7 +37,7 @@ def section_picture(bearing: Any, path: str | Path, *, title: str = "", note: st
             _fill(ax, ring, 0, _RING, lambda points: points)
         for row in bearing.row_places:
             lean = -row.sense * angle
-            middle = np.array([row.place, bearing.pitch_radius])
+            middle = np.array([row.place, 0.5 * bearing.pitch_diameter])
             turn = np.array([[cos(lean), sin(lean)], [-sin(lean), cos(lean)]])
             _fill(ax, shapes.element, 1, _ELEMENT, partial(_placed, turn, middle))
             _line(ax, bearing, row.place, lean)
@@ -70,7 +71,7 @@ def _fill(
 
 def _line(ax: Any, bearing: Any, place: float, lean: float) -> None:
     """The line of contact, from the axis to the outside of the element."""
-    reach = 0.6 * bearing.element_diameter
-    ends = np.array([bearing.pitch_radius + reach * cos(lean), 0.0])
-    x = place - np.tan(lean) * (ends - bearing.pitch_radius)
+    reach, pitch = 0.6 * bearing.element_diameter, 0.5 * bearing.pitch_diameter
+    ends = np.array([pitch + reach * cos(lean), 0.0])
+    x = place - np.tan(lean) * (ends - pitch)
     ax.plot(1e3 * x, 1e3 * ends, color=sheet.VERMILION, lw=1.1, ls="--")

@@ -16,6 +16,7 @@ from flexcage.case.new import new_case
 from flexcage.case.static import StaticCase
 from flexcage.cli import main
 from flexcage.contacts.spec import Contacts
+from flexcage.render import section_picture
 from flexcage.spec import (
     AngularContactBallBearing,
     DoubleRowAngularContactBallBearing,
@@ -304,3 +305,8 @@ def test_a_moment_is_refused_where_nothing_resists_a_tilt():
     with pytest.raises(flexcage.InputError, match=said):
         solved(ALIGNING, radial=1e3, moment_z=5.0)
     assert solved(ALIGNING, radial=1e3, moment_z=5.0, tilt_stiffness=1e4).displacement[4] != 0.0
+
+
+@pytest.mark.parametrize("bearing", [PAIR, TWO_OF_ROLLERS], ids=["balls", "rollers"])
+def test_a_section_of_two_rows_is_drawn(bearing, tmp_path):
+    assert section_picture(bearing, tmp_path / "section.png").stat().st_size > 20_000
