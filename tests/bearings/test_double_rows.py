@@ -17,6 +17,7 @@ from flexcage.case.new import new_case
 from flexcage.case.static import StaticCase
 from flexcage.cli import main
 from flexcage.contacts.spec import Contacts
+from flexcage.render import section_picture
 from flexcage.spec import (
     AngularContactBallBearing,
     DoubleRowAngularContactBallBearing,
@@ -328,3 +329,8 @@ def test_static_solutions_are_drawn_with_a_section(designation, tmp_path, capsys
     assert main(["static", str(case), "-o", str(tmp_path / "out")]) == 0
     assert (tmp_path / "out/section.png").stat().st_size > 20_000
     assert "limits" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("bearing", [PAIR, TWO_OF_ROLLERS], ids=["balls", "rollers"])
+def test_a_section_of_two_rows_is_drawn(bearing, tmp_path):
+    assert section_picture(bearing, tmp_path / "section.png").stat().st_size > 20_000

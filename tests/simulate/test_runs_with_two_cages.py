@@ -170,6 +170,48 @@ def test_flexible_cages_with_defects_are_strained_as_mirror_images():
     assert run.summary["energy_audit"] == "passed"
 
 
+NN3010 = {
+    "type": "double_row_cylindrical_roller", "bore": "50 mm", "outside_diameter": "80 mm",
+    "width": "23 mm", "inner_race_diameter": "58 mm", "outer_race_diameter": "72 mm",
+    "roller_diameter": "7 mm", "roller_length": "7 mm", "effective_length": "6.4 mm",
+    "roller_count": 22, "rib_diameter": "60 mm", "rib_gap": "7.05 mm", "row_distance": "9 mm",
+    "staggered": False, "radial_clearance": "20 um",
+}  # fmt: skip
+WINDOW = {
+    "model": "flexible", "rows": "each", "guidance": "inner", "bore": "60.5 mm",
+    "outside_diameter": "67 mm", "width": "8.9 mm", "pocket_width": "7.2 mm",
+    "pocket_length": "7.25 mm", "fillet_radius": "0.4 mm",
+}  # fmt: skip
+
+
+@pytest.mark.slow
+def test_flexible_window_cages_with_defects_are_strained_as_mirror_images():
+    """A crossbeam pinches its roller from the start, a side beam at +x of one cage, -x of the
+    other, is bent: pockets' own coordinates, forces by face and stresses are mirror images."""
+    run = simulate(load_case({
+        "name": "NN3010", "bearing": NN3010, "cage": WINDOW, "drive": {"speed": "3000 rpm"},
+        "load": {"radial": "3 kN", "gravity": "0 m/s^2"}, "mesh": {"fineness": "coarse"},
+        "defects": [
+            {"type": "crossbeam", "crossbeam": 3, "displacement": "0.25 mm", "shape": "bent"},
+            {"type": "side_beam", "pocket": 8, "side": "+x", "displacement": "-0.28 mm"},
+        ],
+        "solver": {"duration": "0.4 ms"},
+    }))  # fmt: skip
+    ds = run.dataset
+    force = ds["pocket_force"].transpose("time", "pocket", "face").values
+    assert force[:, 2].max() > 5.0 and force[:, 8, 2:].max() > 5.0
+    np.testing.assert_allclose(
+        force[:, 22:][..., [0, 1, 3, 2]], force[:, :22], atol=2e-3 * force.max()
+    )
+    modal = ds["modal_coordinates"].values
+    np.testing.assert_allclose(modal[:, 1], modal[:, 0], atol=2e-3 * np.abs(modal).max())
+    own = ds["residual_coordinates"].values
+    np.testing.assert_allclose(own[:, 22:], own[:, :22], atol=3e-3 * np.abs(own).max())
+    first, second = (row.stress_history for row in run.rows)
+    np.testing.assert_allclose(second.peak, first.peak, rtol=5e-3)
+    assert run.summary["stress_peak"] > 10e6 and run.summary["energy_audit"] == "passed"
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("model", ["rigid", "flexible"])
 def test_both_integrators_agree_on_two_cages(model):
