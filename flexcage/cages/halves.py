@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Any
 
 from flexcage.cages.cage_type import cage_type_of
 from flexcage.core.units import mm
@@ -21,6 +23,20 @@ def is_one_piece(cage: Cage, places: Sequence[RowPlace]) -> bool:
     return abs(2.0 * reach - (places[1].place - places[0].place)) < 2.0 * _MEETS
 
 
+def meeting(cage: Cage, places: Sequence[RowPlace]) -> Cage | None:
+    """The cage with such a ``width`` that both halves meet; None where its type has no such."""
+    if cage.inner_reach is None or not cage_type_of(cage).joins or len(places) != 2:
+        return None
+    width: dict[str, Any] = {"width": round(_meeting_width(cage, places), 6)}
+    return replace(cage, **width)
+
+
+def _meeting_width(cage: Cage, places: Sequence[RowPlace]) -> float:
+    """Width [m] at which both halves meet; that of mirror images grows at one end."""
+    gap = 0.5 * (places[1].place - places[0].place) - (cage.inner_reach or 0.0)
+    return cage.width + (1.0 if cage.mirrored else 2.0) * gap
+
+
 def find_apart(cage: Cage, places: Sequence[RowPlace]) -> Iterator[tuple[str, str]]:
     """Where and why, in a sentence, the halves of a common cage that is to bend are no one body."""
     reach, otherwise = cage.inner_reach, 'or model = "rigid" in [cage]'
@@ -34,12 +50,11 @@ def find_apart(cage: Cage, places: Sequence[RowPlace]) -> Iterator[tuple[str, st
     elif not is_one_piece(cage, places):
         gap = 0.5 * (places[1].place - places[0].place) - reach
         what = "apart" if gap > 0.0 else "over each other"
-        width = cage.width + (1.0 if cage.mirrored else 2.0) * gap
         yield (
             "cage.width",
             f"cage.width is {mm(cage.width)}, so that both halves of the cage are "
             f"{mm(2.0 * abs(gap))} {what} in the middle, but a common cage that bends is one body; "
-            f"give {mm(width)}, {otherwise}.",
+            f"give {mm(_meeting_width(cage, places))}, {otherwise}.",
         )
 
 

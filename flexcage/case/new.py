@@ -13,7 +13,7 @@ import numpy as np
 
 from flexcage.bearings.family import in_motion, inference_of
 from flexcage.cages.cage_type import proposal_of
-from flexcage.cages.halves import is_one_piece
+from flexcage.cages.halves import is_one_piece, meeting
 from flexcage.case.case import load_case
 from flexcage.case.marked import of_mark, rolling, unmarked
 from flexcage.case.presets import NAMED
@@ -288,16 +288,21 @@ def _text(
 
 
 def _in_its_row(proposed: ProposedCage, bearing: Bearing) -> ProposedCage:
-    """The cage of a row, narrower where those of two rows would overlap."""
-    cage = proposed.cage
-    apart = float(np.ptp([row.place for row in bearing.row_places]))
-    if bearing.row_count == 1 or is_one_piece(cage, bearing.row_places):
+    """The cage of a row, as wide as makes those of two rows one piece where there is room, or
+    narrower where they would overlap."""
+    places = bearing.row_places
+    if bearing.row_count == 1 or is_one_piece(proposed.cage, places):
         return proposed
-    if 2.0 * (cage.axial_width - cage.axial_reach) <= apart:
+    apart = float(np.ptp([row.place for row in places]))
+    whole = meeting(proposed.cage, places)
+    if whole is not None and not any(whole.impossible(bearing.element_count)):
+        why = "from the rows' distance: both halves meet in the middle and are one piece"
+        return replace(proposed, cage=whole, reasons={**proposed.reasons, "width": why})
+    if 2.0 * (proposed.cage.axial_width - proposed.cage.axial_reach) <= apart:
         return proposed
     reasons = {**proposed.reasons, "width": "assumption: the cages of both rows meet in the middle"}
     narrower: dict[str, Any] = {"width": round(apart, 6)}  # a key of all that two rows may have
-    return replace(proposed, cage=replace(cage, **narrower), reasons=reasons)
+    return replace(proposed, cage=replace(proposed.cage, **narrower), reasons=reasons)
 
 
 def _cage(
@@ -310,7 +315,7 @@ def _cage(
     if bearing.row_count > 1:
         model = ("model", '"rigid"', "one cage for both rows, each half as follows")
         if is_one_piece(proposed.cage, bearing.row_places):
-            model = ("model", '"rigid"', '"flexible" meshes it and finds its modes')
+            model = ("model", '"flexible"', "one piece for both rows, each half as follows")
     return [
         model,
         *_entries(proposed.cage, {"type": "", **proposed.reasons}),

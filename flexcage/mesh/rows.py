@@ -56,6 +56,25 @@ def rows_in(info: Mapping[str, object]) -> tuple[RowFrame, ...]:
     return tuple(RowFrame(*map(float, row)) for row in rows)
 
 
+def frame_of(info: Mapping[str, object], pocket: float, pocket_count: int) -> RowFrame:
+    """The frame of the row of a pocket, or of a part beside it, in a mesh with so many pockets a
+    row."""
+    rows = rows_in(info)
+    return rows[int(pocket + 0.5) // pocket_count] if rows else RowFrame()
+
+
+def pockets_at(points: np.ndarray, pocket_count: int, rows: Sequence[RowFrame] = ()) -> np.ndarray:
+    """Numbers (n,) of the pockets whose middles are nearest to points (n, 3): of the nearest row,
+    in azimuth."""
+    rows = rows or (RowFrame(),)
+    azimuth = np.arctan2(points[:, 2], points[:, 1])
+    row = np.argmin([np.abs(points[:, 0] - frame.place) for frame in rows], axis=0)
+    turned = np.array([frame.turned for frame in rows])[row]
+    own = np.round((azimuth - turned) * pocket_count / (2.0 * np.pi)).astype(int) % pocket_count
+    found: np.ndarray = row * pocket_count + own
+    return found
+
+
 def in_rows(halves: Sequence[CageMesh], frames: Sequence[RowFrame]) -> CageMesh:
     """The ``halves``, each in its row's frame, beside each other: no elastic body."""
     first = np.cumsum([0, *[len(half.points) for half in halves[:-1]]])

@@ -334,7 +334,7 @@ def _stress(scene: Scene, s: StressPictures, look: Look) -> Iterator[Drawing]:
         pocket_picture, s.nodes, s.cells, s.displacement, s.von_mises,
         shown=instant(scene.dataset, int(np.argmin(np.abs(t - s.time)))), bearing=scene.bearing,
         pitch_radius=float(scene.dataset["element_position"][0].sel(cyl="r").mean()),
-        pocket=nearest_pocket(s.nodes[s.peak_vertex], scene.mesh.pocket_count),
+        pocket=nearest_pocket(s.nodes[s.peak_vertex], scene.bearing),
         limit=look.stress_limit, note=scene.label,
     ))  # fmt: skip
     yield Drawing("stress_envelope", "png", partial(

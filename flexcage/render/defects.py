@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from math import pi
 
 from flexcage.geometry.defect import CageDefect, Meaning
+from flexcage.mesh.cage_mesh import CageMesh
+from flexcage.mesh.rows import frame_of
 from flexcage.render import sheet
 
 COLOURS: dict[Meaning, str] = {
@@ -19,9 +21,10 @@ SMALLER, LARGER, MOVED = COLOURS["smaller"], COLOURS["larger"], COLOURS["moved"]
 Key = tuple[str, str, str]  # kind of mark, colour, text
 
 
-def azimuth_of(defect: CageDefect, count: int) -> float:
-    """Azimuth of a defect [rad]."""
-    return 2.0 * pi * defect.place / count
+def azimuth_of(defect: CageDefect, mesh: CageMesh) -> float:
+    """Azimuth of a defect [rad] of a mesh."""
+    count = mesh.pocket_count
+    return frame_of(mesh.info, defect.number, count).turned + 2.0 * pi * defect.place / count
 
 
 def pocket_colours(defects: Sequence[CageDefect], count: int) -> dict[int, str]:

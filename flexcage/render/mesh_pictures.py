@@ -8,8 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from flexcage.geometry.defect import CageDefect
+from flexcage.geometry.defect import CageDefect, CageLine
 from flexcage.mesh.cage_mesh import POCKET_GROUPS, WALL_GROUPS, CageMesh, pocket_groups
+from flexcage.mesh.rows import RowFrame, frame_of
 from flexcage.render import marks, sheet
 from flexcage.render.defects import COLOURS, azimuth_of, legend, pocket_colours
 from flexcage.render.scene import (
@@ -50,7 +51,7 @@ def mesh_picture(
     """
     radius, width = ring_size(mesh.points)
     if azimuth is None:
-        azimuth = azimuth_of(defects[0], mesh.pocket_count) if defects else 0.0
+        azimuth = azimuth_of(defects[0], mesh) if defects else 0.0
     view = ring_view(radius, width, aspect=MAIN[0] / MAIN[1], azimuth=azimuth)
     shown: list[CageDefect | str] = [*defects[:2], "pocket", "corner"]
     shown = shown[:2] if len(defects) != 1 else [defects[0], "corner"]
@@ -105,19 +106,33 @@ def _fill_pocket(ax, picture: Picture, mesh: CageMesh, pocket: int, colour: str)
 def _mark_lines(defects: Sequence[CageDefect], ax, picture: Picture, mesh: CageMesh) -> None:
     """Draw what is seen of the lines that mark defects, such as cracks."""
     for defect in defects:
-        lines = defect.lines(mesh.points, mesh.pocket_count)
+        lines = _lines_of(defect, mesh)
         seen = [picture.place(line.points) for line in lines if picture.sees(line.seen_at)]
         for width, colour in ((4.0, "white"), (2.2, COLOURS["crack"])):  # all rims below all lines
             for xy in seen:
                 ax.plot(*xy.T, color=colour, lw=width, solid_capstyle="round")
 
 
+def _lines_of(defect: CageDefect, mesh: CageMesh) -> Sequence[CageLine]:
+    """Lines that mark a defect, found in the frame of its row."""
+    count, number = mesh.pocket_count, defect.number
+    frame = frame_of(mesh.info, number, count)
+    own = defect.moved_by(number % count - number).lines(frame.into(mesh.points), count)
+    return [
+        CageLine(frame.out_of(line.points), frame.out_of(line.seen_at[None])[0]) for line in own
+    ]
+
+
 def _close_view(shown: CageDefect | str, mesh: CageMesh, radius: float) -> View:
     """Nearly radial view of a beam that moved, or of pocket 0; axis upwards, +psi to the right."""
-    psi = 0.0 if isinstance(shown, str) else azimuth_of(shown, mesh.pocket_count)
+    psi = 0.0 if isinstance(shown, str) else azimuth_of(shown, mesh)
     radial, axis = np.array([0.0, np.cos(psi), np.sin(psi)]), np.array([1.0, 0.0, 0.0])
     width = 2.0 * float(np.abs(mesh.points[:, 0]).max())
-    focus, height, direction = 0.96 * radius * radial, 0.8 * width, radial + 0.22 * axis
+    frame = RowFrame()
+    if not isinstance(shown, str):
+        frame = frame_of(mesh.info, shown.number, mesh.pocket_count)
+    focus = 0.96 * radius * radial + frame.place * axis
+    height, direction = 0.8 * width, radial + 0.22 * axis
     if shown == "pocket":
         height = 1.16 * width
     elif shown == "corner":
@@ -125,7 +140,8 @@ def _close_view(shown: CageDefect | str, mesh: CageMesh, radius: float) -> View:
         focus, height = rim[np.argmax(rim[:, 0] + rim[:, 2])], 0.22 * width
         direction = radial - 0.45 * axis - np.array([0.0, 0.0, 0.45])
     elif not isinstance(shown, str) and (way := shown.way(mesh.pocket_count)):
-        focus = focus + 0.16 / 0.78 * way[0] * width * axis  # a fifth of the way to its place
+        aside = frame.sign * way[0] * width * axis
+        focus = focus + 0.16 / 0.78 * aside  # a fifth of the way to its place
     return View(tuple(direction / np.linalg.norm(direction)), tuple(focus), height)
 
 
@@ -162,7 +178,9 @@ def _sound_outline(
 ) -> None:
     """Outer rim of a sound pocket, turned to where this one would be, as dashed lines."""
     touched = {p for d in defects for p in d.pockets(mesh.pocket_count)}
-    sound = next((k for k in range(mesh.pocket_count) if k not in touched), None)
+    first = pocket // mesh.pocket_count * mesh.pocket_count  # of its row
+    row = range(first, first + mesh.pocket_count)
+    sound = next((k for k in row if k not in touched), None)
     if sound is None:
         return
     rim = _rim(mesh, sound)
@@ -212,9 +230,10 @@ def _chain(edges: np.ndarray) -> np.ndarray | None:
 
 
 def _pocket_name(ax, picture: Picture, mesh: CageMesh, pocket: int) -> None:
-    psi = 2.0 * pi * pocket / mesh.pocket_count
-    radius = ring_size(mesh.points)[0]
-    x, y = picture.place(radius * np.array([0.0, np.cos(psi), np.sin(psi)]))[0]
+    frame = frame_of(mesh.info, pocket, mesh.pocket_count)
+    psi, radius = frame.turned + 2.0 * pi * pocket / mesh.pocket_count, ring_size(mesh.points)[0]
+    middle = np.array([frame.place, radius * np.cos(psi), radius * np.sin(psi)])
+    x, y = picture.place(middle)[0]
     h, w = picture.pixels.shape[:2]
     x = float(np.clip(x, 62, w - 62))
     if 0 < y < h:
@@ -234,11 +253,14 @@ def _arrow(ax, picture: Picture, mesh: CageMesh, defect: CageDefect) -> None:
     way = defect.way(mesh.pocket_count)
     if way is None:
         return
-    psi = azimuth_of(defect, mesh.pocket_count)
+    psi = azimuth_of(defect, mesh)
     radius, width = ring_size(mesh.points)
+    frame = frame_of(mesh.info, defect.number, mesh.pocket_count)
+    half = 0.5 * width - abs(frame.place)  # of the cage of its row
     middle = radius * np.array([0.0, np.cos(psi), np.sin(psi)])
-    middle[0] = 0.5 * way[0] * width
-    a, b = picture.place(np.array([middle - 1.1e-3 * way[1], middle + 1.1e-3 * way[1]]))
+    middle[0] = frame.place + frame.sign * way[0] * half
+    step = 1.1e-3 * way[1] @ frame.axes
+    a, b = picture.place(np.array([middle - step, middle + step]))
     ax.annotate(
         "",
         xy=b,

@@ -10,6 +10,7 @@ import numpy as np
 
 from flexcage.core.digits import number_text
 from flexcage.geometry.bearing import Bearing
+from flexcage.mesh.rows import pockets_at, row_frames
 from flexcage.render import marks, sheet
 from flexcage.render.bearing_pictures import IDLE, element_points
 from flexcage.render.instant import Instant
@@ -57,11 +58,11 @@ def pocket_picture(
     [Pa] fixes the colour range.
     """
     stress, surface, vertices = MPA * von_mises, surface_of(tets), surface_vertices(tets)
-    near = stress[vertices[_near(points[vertices], pocket, bearing.element_count)]]
+    near = stress[vertices[_near(points[vertices], pocket, bearing)]]
     top, over = sheet.robust_limit(near)
     if limit is not None:
         top, over = MPA * limit, bool(near.max() > MPA * limit)
-    cmap, pitch = sheet.colour_map("viridis"), (bearing.element_count, pitch_radius)
+    cmap = sheet.colour_map("viridis")
     moved = surface.polydata(points + displacement, stress)
     element = element_in_pocket(shown, bearing, pocket)
     layers = [
@@ -77,7 +78,7 @@ def pocket_picture(
         sheet.heading(figure, title, sheet.join([*parts, "deformation in scale"]))
         with Stage(layers) as stage:
             for k, elevation in enumerate((0.0, ELEVATION)):
-                shot = stage.shoot(_view(points, pocket, pitch, elevation), SIZE)
+                shot = stage.shoot(_view(points, (bearing, pocket), pitch_radius, elevation), SIZE)
                 place = (EDGE + k * (SIZE[0] + GAP), TOP, *SIZE)
                 marks.length_bar(
                     sheet.image_at(figure, place, shot.pixels, frame=sheet.FAINT), shot
@@ -97,27 +98,31 @@ def element_in_pocket(now: Instant, bearing: Bearing, pocket: int) -> pyvista.Po
     return body
 
 
-def nearest_pocket(point: np.ndarray, count: int) -> int:
-    """The pocket, of ``count``, whose middle is nearest to a point (3,) of the cage in azimuth."""
-    return round(float(np.arctan2(point[2], point[1])) / (2.0 * pi / count)) % count
+def nearest_pocket(point: np.ndarray, bearing: Bearing) -> int:
+    """The pocket of a bearing's cage whose middle is nearest to a point (3,) of it in azimuth, of
+    the row that is nearest to it."""
+    rows = row_frames(bearing.row_places, [1.0] * bearing.row_count)
+    return int(pockets_at(point[None], bearing.element_count, rows)[0])
 
 
-def _near(points: np.ndarray, pocket: int, count: int) -> np.ndarray:
+def _near(points: np.ndarray, pocket: int, bearing: Bearing) -> np.ndarray:
     """Which points lie within a pitch of the pocket's middle."""
-    away = np.arctan2(points[:, 2], points[:, 1]) - 2.0 * pi * pocket / count
-    return np.abs((away + pi) % (2.0 * pi) - pi) < 2.0 * pi / count
+    away = np.arctan2(points[:, 2], points[:, 1]) - bearing.element_azimuths[pocket]
+    pitch: float = 2.0 * pi / bearing.element_count
+    return np.abs((away + pi) % (2.0 * pi) - pi) < pitch
 
 
-def _view(points: np.ndarray, pocket: int, pitch: tuple[int, float], elevation: float) -> View:
-    """At a pocket from outside, the axis upwards; ``pitch`` is how many there are, and the radius
-    of their middles [m]; ``elevation`` [deg] above the ring's plane."""
-    count, middle = pitch
-    psi, e = 2.0 * pi * pocket / count, np.deg2rad(elevation)
+def _view(points: np.ndarray, which: tuple[Bearing, int], middle: float, elevation: float) -> View:
+    """At a pocket of a bearing's cage from outside, the axis upwards; ``middle`` [m] is the radius
+    of pockets' middles; ``elevation`` [deg] above the ring's plane."""
+    bearing, pocket = which
+    count, e = bearing.element_count, np.deg2rad(elevation)
+    psi, place = bearing.element_azimuths[pocket], bearing.row_places[pocket // count].place
     radial = np.array([0.0, np.cos(psi), np.sin(psi)])
     direction = np.cos(e) * radial + np.array([np.sin(e), 0.0, 0.0])
     apart, (_, width) = 2.0 * np.sin(pi / count) * middle, ring_size(points)
     height = max(SEEN * apart * SIZE[1] / SIZE[0], 1.15 * width)
-    return View(tuple(direction), tuple(middle * radial), float(height))
+    return View(tuple(direction), (place, *(middle * radial)[1:]), float(height))
 
 
 def _forces(shown: Instant, pocket: int) -> list[str]:

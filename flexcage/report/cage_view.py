@@ -11,6 +11,7 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from flexcage.mesh.rows import RowFrame, pockets_at
 from flexcage.render import sheet
 from flexcage.render.scene import surface_of, surface_vertices
 from flexcage.report.blocks import Chart
@@ -35,6 +36,7 @@ class CageStress:
     time: float  # [s]
     peak_vertex: int
     pocket_count: int
+    rows: tuple[RowFrame, ...] = ()  # of pockets, of a common cage of several
 
 
 def cage_chart(cages: Sequence[CageStress], *, scale: float, title: str) -> Chart:
@@ -134,9 +136,7 @@ def _mm(points: np.ndarray) -> dict[str, np.ndarray]:
 
 def _places(cage: CageStress, vertex: np.ndarray) -> np.ndarray:
     """Stress [MPa] and nearest pocket of every vertex (n, 2), for pointing at them."""
-    x, y, z = cage.points[vertex].T
-    pitch = 2.0 * np.pi / cage.pocket_count
-    pocket = np.round(np.arctan2(z, y) / pitch).astype(int) % cage.pocket_count
+    pocket = pockets_at(cage.points[vertex], cage.pocket_count, cage.rows)
     return np.stack([cage.von_mises[vertex] * 1e-6, pocket], axis=1).astype(np.float32)
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from flexcage.mesh.rows import rows_in
 from flexcage.render.album import Scene
 from flexcage.report.blocks import (
     Block,
@@ -171,7 +172,7 @@ def cage_stress(scene: Scene, stress: StressPictures, name: str = "") -> CageStr
     assert scene.mesh is not None, "stress is that of a cage"
     return CageStress(
         name, stress.nodes, stress.cells, stress.displacement, stress.von_mises, stress.time,
-        stress.peak_vertex, scene.mesh.pocket_count,
+        stress.peak_vertex, scene.mesh.pocket_count, rows_in(scene.mesh.info),
     )  # fmt: skip
 
 

@@ -8,11 +8,20 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from flexcage import load_case
 from flexcage.case.presets import load_preset
 from flexcage.render.instant import Instant
 from flexcage.render.pocket_pictures import element_in_pocket, nearest_pocket, pocket_picture
 
 COUNT = 22
+
+
+ROWS = {
+    "type": "double_row_cylindrical_roller", "bore": "50 mm", "outside_diameter": "80 mm",
+    "width": "23 mm", "inner_race_diameter": "58 mm", "outer_race_diameter": "72 mm",
+    "roller_diameter": "7 mm", "roller_length": "7 mm", "effective_length": "6.4 mm",
+    "roller_count": 8, "rib_diameter": "60 mm", "rib_gap": "7.05 mm", "row_distance": "9 mm",
+}  # fmt: skip
 
 
 def shown(*, turned: float = 0.0, centre=(0.0, 0.0, 0.0), skew: float = 0.0) -> Instant:
@@ -51,10 +60,23 @@ def test_a_cage_that_moved_leaves_its_element_behind():
 
 
 def test_the_pocket_of_a_point_is_the_nearest():
-    angle = 2.0 * pi * (5.4 + np.array([0.0, 0.2])) / COUNT
+    bearing = load_preset("N1013").bearing
+    count = bearing.element_count
+    angle = 2.0 * pi * (5.4 + np.array([0.0, 0.2])) / count
     points = np.stack([0.0 * angle, np.cos(angle), np.sin(angle)], axis=1)
-    assert [nearest_pocket(p, COUNT) for p in points] == [5, 6]
-    assert nearest_pocket(np.array([0.0, 1.0, -0.01]), COUNT) == 0
+    assert [nearest_pocket(p, bearing) for p in points] == [5, 6]
+    assert nearest_pocket(np.array([0.0, 1.0, -0.01]), bearing) == 0
+
+
+def test_the_pocket_of_a_point_of_two_rows_is_in_its_row():
+    pair = load_case(
+        {"bearing": ROWS, "cage": {"model": "none"}, "load": {"radial": "1 kN"}}
+    ).bearing
+    psi = pair.element_azimuths
+    for pocket in (0, 7, 8, 15):
+        x = -3e-3 if pocket < 8 else 3e-3
+        point = np.array([x, np.cos(psi[pocket] + 0.1), np.sin(psi[pocket] + 0.1)])
+        assert nearest_pocket(point, pair) == pocket
 
 
 def test_the_picture_shows_stress_and_element(ring, tmp_path):
