@@ -16,8 +16,8 @@ LAW = WearLaw(material="brass", coefficient=2e-15)
 
 @pytest.mark.slow
 def test_sliding_of_barrels_explains_the_work_of_friction():
-    """Recorded forces times speeds of rigid bodies are the work that friction took; of bars alone, as
-    an end counts with the mean speed of its points."""
+    """Recorded forces times speeds of rigid bodies are the work that friction took; of bars alone,
+    as an end counts with the mean speed of its points."""
     fine = {
         "solver.duration": "12 ms", "solver.tolerance": "0.001 um", "output.rate": "200 kHz",
         "load.misalignment": "0 mrad", "contacts.side.friction.law": "none",
