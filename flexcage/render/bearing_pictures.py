@@ -189,7 +189,10 @@ def element_points(points: np.ndarray, now: Instant, k: int) -> np.ndarray:
     radial = np.array([0.0, np.cos(psi), np.sin(psi)])
     around = np.array([0.0, -np.sin(psi), np.cos(psi)])
     axis = np.array([1.0, 0.0, 0.0]) + tilt * radial + skew * around
-    frame = np.column_stack([axis / np.linalg.norm(axis), radial, around])
+    axis /= np.linalg.norm(axis)
+    up = radial - (radial @ axis) * axis
+    up /= np.linalg.norm(up)
+    frame = np.column_stack([axis, up, np.cross(axis, up)])
     placed: np.ndarray = points @ frame.T + x * np.array([1.0, 0.0, 0.0]) + radius * radial
     return placed
 
