@@ -114,8 +114,9 @@ def unknown_part(text: str) -> tuple[str, str] | None:
 
 def _numbers(name: str, cuts: set[int]) -> Iterator[tuple[str, re.Match[str]]]:
     """Series, and a match of prefix, series and bore code that a name may begin with; long names
-    of series come first, and separators at ``cuts`` are not within a bore code."""
-    for code in (r"\d\d", r"\d"):
+    of series come first, and separators at ``cuts`` are not within a bore code. A code of one digit
+    does not follow three."""
+    for code in (r"\d\d", r"(?<!\d{3})\d"):
         for first, own in _names_of_series():
             before = "|".join(p for p, row in prefixes().items() if first.startswith(row["series"]))
             pattern = rf"(?P<prefix>(?:{before})?){first}(?P<code>{code})"

@@ -115,8 +115,7 @@ def starting_point(result: BearingResult) -> StaticSolution:
     own = result.solution
     if result.facing == "+x":
         return own
-    count = len(own.elements.azimuth)
-    other = -np.arange(count) % count  # the element at the mirrored azimuth
+    other = _mirrored(own.elements.azimuth)
     turned = {
         f.name: _turned(getattr(own.elements, f.name), other)
         for f in dataclasses.fields(ElementLoads)
@@ -127,6 +126,14 @@ def starting_point(result: BearingResult) -> StaticSolution:
         own, displacement=own.displacement * FROM_MIRROR, outer=own.outer * FROM_MIRROR,
         elements=ElementLoads(**turned),
     )  # fmt: skip
+
+
+def _mirrored(azimuth: np.ndarray) -> np.ndarray:
+    """Numbers (n,) of the elements at minus the azimuths (n,) of others of their rows, in each of
+    which azimuths rise."""
+    row = np.cumsum(np.diff(azimuth, prepend=azimuth[0]) < 0.0)
+    away = np.abs(np.angle(np.exp(1j * np.add.outer(azimuth, azimuth))))
+    return np.where(row[:, None] == row, away, np.inf).argmin(axis=1)
 
 
 def _turned(values: Any, order: np.ndarray) -> Any:

@@ -19,7 +19,7 @@ RUN = [family for family in FAMILIES.values() if family.motion is not None]
 WITHOUT = {
     "four_point": {"rings", "bending"},
     "tapered_roller": {"rings", "bending"},
-    "spherical_roller": {"rings", "bending", "rubbing"},
+    "spherical_roller": {"rings", "bending"},
     "double_row_ball": {"rings", "bending", "losses"},
     "double_row_roller": {"rings", "bending", "losses"},
 }

@@ -92,12 +92,12 @@ def test_a_written_case_of_barrels_is_solved(tmp_path, capsys):
 
 
 @pytest.mark.slow
-def test_a_written_case_of_barrels_runs(tmp_path):
+def test_a_written_case_of_barrels_runs():
     case = load_case(new_case(catalogue.find("22208").outline, "given").text)
-    run = simulate(case.replace({"solver.duration": "2 ms"}), tmp_path / "run")
+    run = simulate(case.replace({"solver.duration": "2 ms"}))
     assert run.summary.row("energy_audit").value == "passed"
-    rolls = case.bearing.kinematics(case.drive.speed)
-    assert run.summary["cage_speed"] == pytest.approx(rolls.cage_speed, rel=0.02)
+    rolling = 0.5 * case.drive.speed * (1.0 - case.bearing.gamma)
+    assert run.summary["cage_speed"] == pytest.approx(rolling, rel=0.02)
     assert (run.dataset["row"].values == np.repeat([0, 1], 16)).all()
     skew = run.dataset["element_tilt"].sel(tilt="skew").isel(time=-1).values
     assert np.abs(skew).max() < 0.05  # pockets hold them

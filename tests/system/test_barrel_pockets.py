@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from barrel_parts import caged, in_pockets, settled
+from bearing_runs import march
 from scipy.spatial.transform import Rotation
 from tapered_parts import DRY, ELASTIC, FRICTIONLESS, LIGHT, energy, pushed
 from test_newton_matrix import miss
@@ -109,3 +110,20 @@ def test_newton_matrix_in_pockets_of_barrels(soft, limit):
     bearing.residual(0.0, y, yd, mode=2)
     assert (bearing.data.work.report.pocket_normal > 1.0).sum() > 16
     assert max(miss(bearing, y, yd, rng, 3e5) for _ in range(5)) < limit
+
+
+@pytest.mark.slow
+def test_both_integrators_move_barrels_in_pockets_alike():
+    """A flexible cage with yielding walls, whose bars the barrels strike."""
+    states = []
+    for method in ("explicit", "bdf"):
+        _, bearing = caged(**LIGHT)
+        y, layout = in_pockets(bearing, settled(bearing), depth=0.0), bearing.layout
+        yd = rolling_barrels(bearing, y, Rotation.identity())
+        h = march(bearing, y, yd, duration=0.15e-3, method=method, tolerance=1e-9)
+        assert h.outcome == 0 and h.samples.pocket_normal.max() > 1.0
+        states.append(layout.q(h.y))
+    explicit, implicit = states
+    np.testing.assert_allclose(explicit["cage"][-1], implicit["cage"][-1], atol=2e-8)
+    one, other = (s["elements"][-1, :, :2] for s in states)
+    np.testing.assert_allclose(one, other, atol=6e-8)

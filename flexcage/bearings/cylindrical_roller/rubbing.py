@@ -71,7 +71,7 @@ def rub_on(
     cells = np.zeros((*power.shape[1:], len(x)))
     cells[:, :2] = sum(sums) / len(power)
     cells[:, 2:] = power[..., 2:].mean(axis=0)[..., None] / len(x)
-    length = len(x) * (x[1] - x[0])
+    length = len(x) * abs(x[1] - x[0])
     width = contact_width(force, length, bearing, cage)
     height = spread(place, power[..., :2]) + width
     lengths, heights = np.full_like(cells, length / len(x)), np.empty_like(cells)

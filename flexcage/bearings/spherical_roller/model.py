@@ -90,7 +90,7 @@ def build_spherical_model(
 ) -> SphericalModel:  # fmt: skip
     """Arrays of a spherical roller bearing for the kernels; arguments as those of
     ``system.motion.BuildModel``."""
-    count, diameter = bearing.total_elements, bearing.roller_diameter
+    count, each, diameter = bearing.total_elements, bearing.roller_count, bearing.roller_diameter
     inner, other = (_groove(bearing, contacts, lubricant, way) for way in (-1.0, 1.0))
     spheres = bearing.roller.spheres(slice_places(bearing, contacts.race.slices))
     frames, frames_other = row_frames(bearing, cage)
@@ -111,13 +111,10 @@ def build_spherical_model(
             else no_pockets(count, 0.5 * bearing.roller_length)
         ),
         neighbours=ConeConeContact(*roller_roller_data(bearing, contacts, *spheres)),
-        spot=SpottedRollers(
-            np.zeros(count, np.int64), 0.0, np.arange(count) // bearing.roller_count
-        ),
+        spot=SpottedRollers(np.zeros(count, np.int64), 0.0, np.arange(count) // each),
         land=no_land(),
         rows=RollerRows(
-            bearing.roller_count,
-            np.repeat([row.place for row in bearing.row_places], bearing.roller_count),
+            each, np.repeat([row.place for row in bearing.row_places], each),
             bearing.element_azimuths,
         ),
         frames=frames,

@@ -57,6 +57,7 @@ class ShaftData(NamedTuple):
     matrix: np.ndarray  # (N, N)
     pivot: np.ndarray  # (N,)
     x: np.ndarray  # (N,) accelerations
+    pushed: np.ndarray  # (N,) generalised forces of loads and unbalance
     kept: np.ndarray  # (samples, b, 5) the rotor's forces at the samples of a block
 
 
@@ -102,5 +103,5 @@ def workspace(bearings: int, modes: int, samples: int) -> dict[str, np.ndarray]:
         "axes": z((3, 3)), "reach": z((bearings, RIGID_ROTOR, n)),
         "apart": z((bearings, RIGID_ROTOR)), "borne": z((bearings, RIGID_ROTOR)),
         "given": z((bearings, RIGID_ROTOR)), "matrix": z((n, n)), "pivot": z(n, np.int64),
-        "x": z(n), "kept": z((samples, bearings, RIGID_ROTOR)),
+        "x": z(n), "pushed": z(n), "kept": z((samples, bearings, RIGID_ROTOR)),
     }  # fmt: skip

@@ -228,6 +228,8 @@ def _own_forces(t, y, s):
     v, x = at + RIGID_ROTOR + n, s.x
     spin = table_value(s.speed, t) + wave_value(s.wave, t)
     _loads(t, s, spin)
+    for i in range(x.shape[0]):
+        x[i] = s.pushed[i]
     for c in range(3):
         x[c] += s.inertia[_MASS] * s.gravity[c]
     w2, w3 = y[v + _SECOND], y[v + _THIRD]
@@ -248,23 +250,24 @@ def _own_forces(t, y, s):
 
 @part
 def _loads(t, s, spin):
-    """Constant loads and unbalance into ``s.x``."""
+    """Constant loads and unbalance into ``s.pushed``."""
     angle = table_integral(s.speed, s.angle, t) + wave_integral(s.wave, t)
     change = table_slope(s.speed, t) + wave_slope(s.wave, t)
     ce, se, w2 = cos(angle), sin(angle), spin * spin
-    for i in range(s.x.shape[0]):
+    for i in range(s.pushed.shape[0]):
         # e_r = (ce, se), e_t = (-se, ce): w^2 along e_r, less the change of speed along e_t
         along_y = w2 * ce + change * se
         along_z = w2 * se - change * ce
         quarter_y = -w2 * se + change * ce
         quarter_z = w2 * ce + change * se
-        s.x[i] = s.load[i] + along_y * s.unbalance[0, i] + along_z * s.unbalance[1, i]
-        s.x[i] += quarter_y * s.phase[0, i] + quarter_z * s.phase[1, i]
+        force = s.load[i] + along_y * s.unbalance[0, i] + along_z * s.unbalance[1, i]
+        s.pushed[i] = force + quarter_y * s.phase[0, i] + quarter_z * s.phase[1, i]
 
 
 @part
 def _give_powers(t, y, s, power):
-    """What the rotor does to each inner ring, to that bearing's books; then the rotor's own."""
+    """What the rotor does to each inner ring, to that bearing's books; then the rotor's own. Forces
+    are those that ``_accelerate`` found there."""
     bearings = s.place.shape[0]
     if power.shape[0] == 0:
         return
@@ -278,10 +281,9 @@ def _give_powers(t, y, s, power):
         power[b * _POWERS + LOAD] += work
         total += work
     power[own + TO_BEARINGS] = -total
-    _loads(t, s, table_value(s.speed, t) + wave_value(s.wave, t))
     done = 0.0
-    for i in range(s.x.shape[0]):
-        done += s.x[i] * y[v + i]
+    for i in range(s.pushed.shape[0]):
+        done += s.pushed[i] * y[v + i]
     power[own + LOADS] = done
     weight = lost = 0.0
     for c in range(3):
