@@ -31,10 +31,10 @@ def build_rows(
     """Mesh of the whole cage, checked: one body where the halves meet and gmsh makes them."""
     build, frames = cage_type_of(cage).mesh(), frames_of(cage, places)
     whole = is_one_piece(cage, places) and not options.file
-    options = replace(options, joint=whole)
+    meet: dict[str, Any] = {"joint": True} if whole else {}
 
     def half(own: Sequence[Any]) -> CageMesh:
-        made = build(cage, pocket_count, pitch_diameter, own, options)
+        made = build(cage, pocket_count, pitch_diameter, own, options, **meet)
         check_mesh(made, where=options.file or "mesh")
         return made
 

@@ -225,9 +225,7 @@ def _keys_of(cls: type, fields: list[dataclasses.Field], path: str, given: Any) 
         default = getattr(given, field.name) if given is not None else default_of(field)
         nested = len(specs) == 1 and not _is_list(cls, field) and specs[0] not in SHARED
         if nested and choices_of(specs[0]) is None:
-            inner = [
-                f for f in dataclasses.fields(specs[0]) if f.init and not f.metadata.get("hidden")
-            ]
+            inner = [f for f in dataclasses.fields(specs[0]) if f.init]
             instance = default if dataclasses.is_dataclass(default) else None
             yield from _under(field, _keys_of(specs[0], inner, where, instance))
         else:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from flexcage.core.spec import ABSENT, GIVEN, option, quantity
 
@@ -43,10 +43,3 @@ class MeshOptions:
     file_unit: str = option(
         "m", doc="unit of length in that file", choices=("m", "mm"), when={"file": GIVEN}
     )
-    joint: bool = field(
-        default=False,
-        metadata={
-            "hidden": True, "hashed": False,
-            "doc": "mesh the end at -x as halves of a common cage meet (``mesh.joint``)",
-        },
-    )  # fmt: skip
