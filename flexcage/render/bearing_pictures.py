@@ -174,7 +174,7 @@ def bearing_layers(
             elements = _elements(now, shapes, chosen)
             layers.append(body_layer(elements, **style))
             layers.append(outline_layer(elements, colour="#30363c", width=0.225))
-    for cage, place, quaternion in zip(cages, *now.cages, strict=True):
+    for cage, place, quaternion in zip(cages, *now.cages):  # none without a mesh
         moved = cage.copy()
         moved.points = cage.points @ rotation(quaternion).T + place
         layers.append(body_layer(moved, colour=BRASS))

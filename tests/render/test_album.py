@@ -175,10 +175,11 @@ def test_animations_are_drawn_beside_the_pictures_that_are_named(monkeypatch, tm
 
     for part, found in (
         ("_geometry", [drawing("mesh", "png")]),
-        ("_motion", [drawing("orbit", "png")]),
+        ("_motion", []),
+        ("_orbits", [drawing("orbit", "png")]),
         ("_animations", [drawing("bearing", "gif")]),
     ):
         monkeypatch.setattr(album, part, lambda *_, found=found: found)
-    scene = SimpleNamespace(stress=None)
+    scene = SimpleNamespace(stress=None, rows=())
     drawn = draw_album(scene, tmp_path, animate=True, only=["orbit"])
     assert [path.name for path in drawn] == ["orbit.png", "bearing.gif"]
