@@ -38,7 +38,8 @@ class CageType(Generic[C]):
     proposal: Callable[[], CageProposal] | None  # a cage for ``flexcage new``; None: no rule
     defects: tuple[type[CageDefect], ...] = ()
     defect_spec: type[CageDefect] = CageDefect  # what its mesh needs of each
-    joins: bool = False  # do halves of its mesh meet in one grid (``mesh.joint``)?
+    # do halves of its mesh meet in one grid (``mesh.joint``) where ``joint=True`` asks for it?
+    joins: bool = False
 
     def __post_init__(self) -> None:
         if self.spec.cage_type != self.name:

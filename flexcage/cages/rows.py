@@ -14,7 +14,6 @@ from flexcage.geometry.cage import Cage
 from flexcage.geometry.defect import in_row
 from flexcage.mesh.cage_mesh import CageMesh
 from flexcage.mesh.joined import joined
-from flexcage.mesh.joint import for_joint
 from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.quality import check_mesh
 from flexcage.mesh.rows import RowFrame, in_rows, row_frames
@@ -32,10 +31,10 @@ def build_rows(
     """Mesh of the whole cage, checked: one body where the halves meet and gmsh makes them."""
     build, frames = cage_type_of(cage).mesh(), frames_of(cage, places)
     whole = is_one_piece(cage, places) and not options.file
-    options = for_joint(options) if whole else options
+    meet: dict[str, Any] = {"joint": True} if whole else {}
 
     def half(own: Sequence[Any]) -> CageMesh:
-        made = build(cage, pocket_count, pitch_diameter, own, options)
+        made = build(cage, pocket_count, pitch_diameter, own, options, **meet)
         check_mesh(made, where=options.file or "mesh")
         return made
 

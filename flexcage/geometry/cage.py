@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import nan, pi
 from typing import TYPE_CHECKING, ClassVar, Protocol
@@ -171,6 +171,12 @@ class Cage:
         """How far one row's half of a common cage reaches [m] from the plane of the elements'
         centres to its end at -x, in which both halves may hold together; None where not."""
         return None
+
+    @property
+    def half_section(self) -> Sequence[tuple[float, float]]:
+        """Corners (x, r) [m] of the section through the axis of one row's half, beside a pocket,
+        from the plane of the elements' centres; none where its type does not say."""
+        return ()
 
     def thinnest(self, pitch_diameter: float, pocket_count: int) -> float:
         """Least thickness [m] of wall and webs, for which elements must not be too large."""

@@ -9,28 +9,15 @@ single row, rather than a wedge of both, and rows in line and staggered ones are
 
 from __future__ import annotations
 
-from dataclasses import fields
 from math import ceil, pi
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
 from flexcage.core.errors import RunFailed
-from flexcage.mesh.options import MeshOptions
 from flexcage.mesh.sector import MM, SizePlan
 
 _FLAT = 1e-3  # mm: extent of a plane face along x, in which boxes are rounded
-
-
-class JointOptions(MeshOptions):
-    """Options of half of a common cage, whose end at -x is such a face."""
-
-    joint: ClassVar[bool] = True
-
-
-def for_joint(options: MeshOptions) -> JointOptions:
-    """The same options for half of a common cage."""
-    return JointOptions(**{f.name: getattr(options, f.name) for f in fields(MeshOptions)})
 
 
 def set_joint(gmsh: Any, plan: SizePlan, place: float) -> None:

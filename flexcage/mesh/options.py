@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 from flexcage.core.spec import ABSENT, GIVEN, option, quantity
 
@@ -21,8 +20,6 @@ class MeshOptions:
     on the 7010C's polyimide cage 20,000, 36,000 and 93,000 nodes, and 63,000 vertices.
     A file is used as it is: defects are not applied to it but must be in it.
     """
-
-    joint: ClassVar[bool] = False  # is it half of a common cage (``mesh.joint``)?
 
     fineness: str = option("medium", doc="element size by name", choices=FINENESS, when=_BUILT)
     size: float | None = quantity(

@@ -11,11 +11,12 @@ from typing import Any
 import numpy as np
 
 from flexcage.core.wings import FAMILIES
+from flexcage.geometry.bearing import RowPlace
 from flexcage.render import sheet
 from flexcage.render.shapes import Profile, shapes_of
 
 _SIDE, _TOP, _LEFT = 760, 110, 96
-_RING, _ELEMENT = "#c9d3de", "#f2d9a0"
+_RING, _ELEMENT, _CAGE = "#c9d3de", "#f2d9a0", "#d8a24a"
 
 
 def has_section(bearing: Any) -> bool:
@@ -24,9 +25,11 @@ def has_section(bearing: Any) -> bool:
     return family is not None and family.shapes is not None and bearing.row_count > 1
 
 
-def section_picture(bearing: Any, path: str | Path, *, title: str = "", note: str = "") -> Path:
-    """The half of a bearing of rows above its axis, in mm, with the lines of contact; ``note`` says
-    whose it is."""
+def section_picture(
+    bearing: Any, path: str | Path, *, cage: Any = None, title: str = "", note: str = ""
+) -> Path:
+    """The half of a bearing of rows above its axis, in mm, with the lines of contact, and beside a
+    pocket its ``cage``, if it is given; ``note`` says whose it is."""
     shapes, angle = shapes_of(bearing), getattr(bearing, "axis_angle", 0.0)
     with sheet.style():
         figure = sheet.new_figure(2 * _LEFT + _SIDE, _TOP + _SIDE + 90)
@@ -40,6 +43,7 @@ def section_picture(bearing: Any, path: str | Path, *, title: str = "", note: st
             turn = np.array([[cos(lean), sin(lean)], [-sin(lean), cos(lean)]])
             _fill(ax, shapes.element, 1, _ELEMENT, partial(_placed, turn, middle))
             _line(ax, bearing, row.place, lean)
+            _half_of_cage(ax, cage, row)
         ax.axhline(0.0, color=sheet.INK, lw=0.9, ls="-.")
         ax.set_aspect("equal", adjustable="datalim")
         ax.set_ylim(-2.0, 520.0 * bearing.outside_diameter)
@@ -66,6 +70,15 @@ def _fill(
         for edge in zip(ends[:-1], ends[1:]):
             if any(point[mirrored] != 0.0 for point in edge):
                 ax.plot(*(1e3 * place(np.array(edge)).T), color=sheet.INK, lw=1.0)
+
+
+def _half_of_cage(ax: Any, cage: Any, row: RowPlace) -> None:
+    """A row's half of a cage; those of mirror images end at -x in the middle."""
+    corners = np.array(cage.half_section if cage is not None else ())
+    if len(corners):
+        corners[:, 0] *= np.sign(row.place) if cage.mirrored else 1.0
+        corners[:, 0] += row.place
+        ax.fill(*(1e3 * corners.T), facecolor=_CAGE, edgecolor=sheet.INK, lw=1.0, alpha=0.85)
 
 
 def _line(ax: Any, bearing: Any, place: float, lean: float) -> None:

@@ -6,11 +6,13 @@ from math import asin, cos, degrees, hypot, pi, radians, sin, tan
 import numpy as np
 import pytest
 from barrel_cage import BARREL_CAGE, BARRELS, COUNT, MM
+from PIL import Image
 
 from flexcage.cages.barrel.proposal import propose_barrel_cage
 from flexcage.cages.conical.mass import mass_of
 from flexcage.cages.conical.walls import pocket_walls
 from flexcage.core.errors import InputError
+from flexcage.render import section_picture
 
 
 def test_a_barrel_lies_along_its_pocket():
@@ -104,3 +106,14 @@ def test_proposed_cages_of_barrels_fit(angle):
     assert gap > 0.02 * bearing.roller_diameter
     chord = 2.0 * 26 * MM * sin(pi / COUNT) * cos(0.0)
     assert proposed.cage.pocket_width < chord + 2.0 * tan(0.5) * 3 * MM
+
+
+def test_the_section_of_both_halves_lies_in_the_sphere(tmp_path):
+    corners = np.array(BARREL_CAGE.half_section) + (0.5 * BARREL_CAGE.row_distance, 0.0)
+    assert corners[:, 0].min() == pytest.approx(0.0, abs=1e-12)
+    assert np.hypot(*corners.T).max() < BARRELS.sphere_radius
+    plain, caged = tmp_path / "plain.png", tmp_path / "caged.png"
+    section_picture(BARRELS, plain)
+    section_picture(BARRELS, caged, cage=BARREL_CAGE)
+    seen = [np.asarray(Image.open(p).convert("RGB"), int) for p in (plain, caged)]
+    assert (np.abs(seen[0] - seen[1]).max(axis=2) > 40).mean() > 0.01

@@ -34,7 +34,7 @@ CASES = {
     "flexcage/modes/README.md": ("N1013",),
 }
 # a static case, a study, maps, a spectrum, machines, a case whose housing is a reader's,
-# a cage of rollers that do not run yet
+# cages without their bearings
 NOT_CASES = {
     "examples/cases.md": 1,
     "examples/studies.md": 1,
@@ -44,7 +44,7 @@ NOT_CASES = {
     "examples/heat.md": 1,
     "examples/signals.md": 1,
     "examples/datasets.md": 1,
-    "flexcage/cages/README.md": 1,
+    "flexcage/cages/README.md": 2,
 }
 
 

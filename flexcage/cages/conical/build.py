@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -22,11 +23,14 @@ def build_conical_mesh(
     pitch_diameter: float,
     defects: Sequence[WindowDefect],
     options: MeshOptions,
+    *,
+    joint: bool = False,
 ) -> CageMesh:
     """Mesh of a conical cage with its defects, or the user's own file checked against both."""
     mesh = build_windows(
-        cage, pocket_count, pitch_diameter, defects, options, part_of=mesh_conical_half
-    )
+        cage, pocket_count, pitch_diameter, defects, options,
+        part_of=partial(mesh_conical_half, joint=joint),
+    )  # fmt: skip
     return replace(mesh, info=with_face_axes(mesh.info, _face_axes(cage)))
 
 

@@ -55,13 +55,16 @@ def conical_size_plan(cage: ConeShaped, options: MeshOptions) -> SizePlan:
     return SizePlan(size, near_fillet, growth, arcs, across, 1.0)
 
 
-def mesh_conical_half(cage: ConeShaped, *, pocket_count: int, options: MeshOptions) -> Quarter:
-    """Mesh the half sector; lengths go to gmsh in mm, where OpenCASCADE's tolerances fit."""
+def mesh_conical_half(
+    cage: ConeShaped, *, pocket_count: int, options: MeshOptions, joint: bool = False
+) -> Quarter:
+    """Mesh the half sector; lengths go to gmsh in mm, where OpenCASCADE's tolerances fit.
+    ``joint``: with an end at -x that meets another half's (``mesh.joint``)."""
     plan = conical_size_plan(cage, options)
     with gmsh_model("flexcage half sector of a conical cage") as gmsh:
         fillets = _shape(gmsh, cage, pocket_count)
         _set_sizes(gmsh, plan, fillets)
-        if options.joint:
+        if joint:
             set_joint(gmsh, plan, cage.ends[0])
         generate(gmsh, plan)
         points, tets, faces = mesh_arrays(gmsh)
@@ -70,7 +73,7 @@ def mesh_conical_half(cage: ConeShaped, *, pocket_count: int, options: MeshOptio
         (*_RING, *_POCKET, _FILLET, _MIDDLE),
     )  # fmt: skip
     del surfaces[_MIDDLE]
-    if options.joint:
+    if joint:
         points = spread_evenly(points, np.unique(surfaces["end-x"]), pocket_count)
     points[np.unique(surfaces["cut_z"]), 2] = 0.0  # exact, so that mirror images coincide
     return Quarter(points, tets, surfaces, plan)

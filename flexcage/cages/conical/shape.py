@@ -7,7 +7,7 @@ the apex, at +x, and across it outwards. The large rim is at -x.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property
 from math import cos, hypot, pi, sin, tan
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
@@ -106,6 +106,15 @@ class ConeShaped(WindowedCage):
             y, t = float(self.radius(s, n)), beside(n)
             n = height - t**2 / (hypot(y, t) + y) * cos(self.cone_angle)
         return n
+
+    @property
+    def half_section(self) -> Sequence[tuple[float, float]]:
+        at = self.section
+        corners = (
+            (float(self.large_end(at.inside)), at.inside), (at.small, at.inside),
+            (at.small, at.outside), (float(self.large_end(at.outside)), at.outside),
+        )  # fmt: skip
+        return [(float(self.axial(s, n)), float(self.radius(s, n))) for s, n in corners]
 
     @property
     def taper(self) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 from flexcage.cages.crown.cage import CrownCage
 from flexcage.cages.crown.defects import CrownDefect
@@ -22,11 +23,14 @@ def build_crown_mesh(
     pitch_diameter: float,
     defects: Sequence[CrownDefect],
     options: MeshOptions,
+    *,
+    joint: bool = False,
 ) -> CageMesh:
     """Mesh of a crown cage with its defects, or the user's own file checked against both."""
     return build_round_pockets(
-        cage, pocket_count, pitch_diameter, defects, options, quarter_of=_half,
-        measure=measure_crown_file, apply=apply_crown_defects,
+        cage, pocket_count, pitch_diameter, defects, options,
+        quarter_of=partial(_half, joint=joint), measure=measure_crown_file,
+        apply=apply_crown_defects,
     )  # fmt: skip
 
 
@@ -36,11 +40,13 @@ def _half(
     pitch_diameter: float,
     defects: Sequence[CrownDefect],
     options: MeshOptions,
+    *,
+    joint: bool = False,
 ) -> Quarter:
     fronts = {radius for defect in defects for radius in defect.fronts(cage)}
     return mesh_crown_half(
         cage, pocket_count=pocket_count, pitch_diameter=pitch_diameter, options=options,
-        breaks=any(defect.breaks for defect in defects), fronts=tuple(sorted(fronts)),
+        breaks=any(defect.breaks for defect in defects), fronts=tuple(sorted(fronts)), joint=joint,
     )  # fmt: skip
 
 

@@ -51,12 +51,13 @@ def crown_size_plan(cage: CrownCage, options: MeshOptions) -> SizePlan:
 
 def mesh_crown_half(
     cage: CrownCage, *, pocket_count: int, pitch_diameter: float, options: MeshOptions,
-    breaks: bool = False, fronts: tuple[float, ...] = (),
+    breaks: bool = False, fronts: tuple[float, ...] = (), joint: bool = False,
 ) -> Quarter:  # fmt: skip
     """Mesh the half sector; lengths go to gmsh in mm, where OpenCASCADE's tolerances fit.
 
     ``breaks``: have faces in the plane where the claw stands on its bar; and ``fronts``: arcs of
-    edges in it at these radii [m] about the bearing's axis.
+    edges in it at these radii [m] about the bearing's axis. ``joint``: have an end at -x that meets
+    another half's (``mesh.joint``).
     """
     plan, pitch_radius = crown_size_plan(cage, options), 0.5 * pitch_diameter
     with gmsh_model("flexcage half sector of a crown cage") as gmsh:
@@ -64,7 +65,7 @@ def mesh_crown_half(
         if breaks:
             _divide(gmsh, cage, pocket_count, fronts)
         _set_sizes(gmsh, plan, cage, pitch_radius)
-        if options.joint:
+        if joint:
             set_joint(gmsh, plan, cage.back)
         generate(gmsh, plan)
         points, tets, faces = mesh_arrays(gmsh)
@@ -73,7 +74,7 @@ def mesh_crown_half(
         (*NAMED, _REST),
     )  # fmt: skip
     del surfaces[_REST]
-    if options.joint:
+    if joint:
         points = spread_evenly(points, np.unique(surfaces["end-x"]), pocket_count)
     points[np.unique(surfaces["cut_z"]), 2] = 0.0  # exact, so that mirror images coincide
     return Quarter(points, tets, surfaces, plan)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Sequence
+from functools import partial
 
 from flexcage.cages.machined.sector import mesh_ball_quarter
 from flexcage.cages.round_pocket.build import build_round_pockets, measure_ball_file
@@ -24,11 +25,13 @@ def build_ball_cage_mesh(
     pitch_diameter: float,
     defects: Sequence[BallCageDefect],
     options: MeshOptions,
+    *,
+    joint: bool = False,
 ) -> CageMesh:
     """Mesh of a machined cage with its defects, or the user's own file checked against both."""
     return build_round_pockets(
-        cage, pocket_count, pitch_diameter, defects, options, quarter_of=machined_quarter,
-        measure=measure_ball_file,
+        cage, pocket_count, pitch_diameter, defects, options,
+        quarter_of=partial(machined_quarter, joint=joint), measure=measure_ball_file,
     )  # fmt: skip
 
 
@@ -38,10 +41,12 @@ def machined_quarter(
     pitch_diameter: float,
     defects: Sequence[BallCageDefect],
     options: MeshOptions,
+    *,
+    joint: bool = False,
 ) -> Quarter:
     """Quarter sector of a sound machined cage, with edges where the tips of cracks will be."""
     quarter = mesh_ball_quarter(
-        cage, pocket_count=pocket_count, options=options, tips=_tips(cage, defects)
+        cage, pocket_count=pocket_count, options=options, tips=_tips(cage, defects), joint=joint
     )
     if is_sphere(cage):
         quarter = make_spherical(quarter, cage, pitch_radius=0.5 * pitch_diameter)

@@ -59,21 +59,23 @@ def ball_size_plan(cage: BallCage, pocket_count: int, options: MeshOptions) -> S
 
 
 def mesh_ball_quarter(
-    cage: BallCage, *, pocket_count: int, options: MeshOptions, tips: tuple[float, ...] = ()
-) -> Quarter:
-    """Mesh the quarter sector; ``tips`` [m] are axial places of lines of edges in its psi cut."""
+    cage: BallCage, *, pocket_count: int, options: MeshOptions, tips: tuple[float, ...] = (),
+    joint: bool = False,
+) -> Quarter:  # fmt: skip
+    """Mesh the quarter sector; ``tips`` [m] are axial places of lines of edges in its psi cut.
+    ``joint``: with ends that meet another half's (``mesh.joint``)."""
     plan = ball_size_plan(cage, pocket_count, options)
     with gmsh_model("flexcage quarter sector of a ball cage") as gmsh:
         _shape(gmsh, cage, pocket_count, plan.stretch, tips)
         set_sizes(gmsh, plan, only_cylinder(gmsh, "pocket wall"))
-        if options.joint:
+        if joint:
             set_joint(gmsh, plan, 0.5 * cage.width)
         generate(gmsh, plan)
         points, tets, faces = mesh_arrays(gmsh, plan.stretch)
     surfaces = named_surfaces(
         faces, points, lambda on: _surface_name(on, cage, pocket_count), SURFACES
     )
-    if options.joint:
+    if joint:
         points = spread_evenly(points, np.unique(surfaces["end"]), pocket_count)
     points[np.unique(surfaces["cut_x"]), 0] = 0.0  # exact, so that mirror images coincide
     points[np.unique(surfaces["cut_z"]), 2] = 0.0

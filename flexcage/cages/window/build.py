@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any, Protocol
 
 from flexcage.cages.window.cage import WindowCage
@@ -31,9 +32,12 @@ def build_window_mesh(
     pitch_diameter: float,
     defects: Sequence[WindowDefect],
     options: MeshOptions,
+    *,
+    joint: bool = False,
 ) -> CageMesh:
     """Mesh of a window cage with its defects, or the user's own file checked against both."""
-    return build_windows(cage, pocket_count, pitch_diameter, defects, options, part_of=mesh_quarter)
+    part_of = partial(mesh_quarter, joint=joint)
+    return build_windows(cage, pocket_count, pitch_diameter, defects, options, part_of=part_of)
 
 
 def build_windows(

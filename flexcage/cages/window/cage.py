@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import hypot, pi, sin
 from typing import ClassVar
@@ -57,6 +57,11 @@ class WindowCage(WindowedCage, CylindricalCage):
     @property
     def side_beam_width(self) -> float:
         return 0.5 * (self.width - self.pocket_length)
+
+    @property
+    def half_section(self) -> Sequence[tuple[float, float]]:
+        half, low, high = 0.5 * self.width, 0.5 * self.bore, 0.5 * self.outside_diameter
+        return [(-half, low), (half, low), (half, high), (-half, high)]
 
     def rim_width(self, side: float) -> float:
         return self.side_beam_width

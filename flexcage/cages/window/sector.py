@@ -62,14 +62,17 @@ def size_plan(cage: WindowCage, pocket_count: int, options: MeshOptions) -> Size
     return SizePlan(size, near_fillet, growth, arcs, radial, stretch)
 
 
-def mesh_quarter(cage: WindowCage, *, pocket_count: int, options: MeshOptions) -> Quarter:
-    """Mesh the quarter sector; lengths go to gmsh in mm, where OpenCASCADE's tolerances fit."""
+def mesh_quarter(
+    cage: WindowCage, *, pocket_count: int, options: MeshOptions, joint: bool = False
+) -> Quarter:
+    """Mesh the quarter sector; lengths go to gmsh in mm, where OpenCASCADE's tolerances fit.
+    ``joint``: with ends that meet another half's (``mesh.joint``)."""
     plan = size_plan(cage, pocket_count, options)
     with gmsh_model("flexcage quarter sector") as gmsh:
         _shape(gmsh, cage, pocket_count, plan.stretch)
         fillet = _fillet_surface(gmsh, cage)
         set_sizes(gmsh, plan, fillet)
-        if options.joint:
+        if joint:
             set_joint(gmsh, plan, 0.5 * cage.width)
         generate(gmsh, plan)
         points, tets, faces = mesh_arrays(gmsh, plan.stretch)
@@ -79,7 +82,7 @@ def mesh_quarter(cage: WindowCage, *, pocket_count: int, options: MeshOptions) -
     }
     if set(surfaces) != {*SURFACES, "fillet"} or len(faces) != len(surfaces):
         raise RunFailed(f"the quarter sector has unexpected surfaces: {sorted(surfaces)}")
-    if options.joint:
+    if joint:
         points = spread_evenly(points, np.unique(surfaces["end"]), pocket_count)
     points[np.unique(surfaces["cut_x"]), 0] = 0.0  # exact, so that mirror images coincide
     points[np.unique(surfaces["cut_z"]), 2] = 0.0
