@@ -199,12 +199,15 @@ def _find_in_load(case: CaseSections) -> Iterator[Finding]:
 
 def _find_in_tilt(case: CaseSections) -> Iterator[Finding]:
     tilt, most = abs(case.load.misalignment), case.bearing.greatest_tilt
+    beyond = "presses the rollers' ends into the races by more than 1 % of their diameter, and "
+    beyond += "contacts are elastic"
+    if case.bearing.self_aligning:
+        beyond = f"moves {case.bearing.element}s over the edge of the outer race"
     if tilt > most:
         yield (
             "load.misalignment",
-            f"load.misalignment is {describe(case.load.misalignment, 'mrad')}, which presses the "
-            f"rollers' ends into the races by more than 1 % of their diameter, and contacts are "
-            f"elastic; give {describe(round(most, 4), 'mrad')} or less.",
+            f"load.misalignment is {describe(case.load.misalignment, 'mrad')}, which {beyond}; "
+            f"give {describe(round(most, 4), 'mrad')} or less.",
         )
 
 

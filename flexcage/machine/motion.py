@@ -95,7 +95,8 @@ def _drive(drive: Drive, way: float) -> Drive:
 def _load(machine: Machine, seated: SeatedBearing, result: BearingResult, way: float) -> Load:
     force = -result.force * (OTHER_WAY if way < 0.0 else 1.0)
     force = without_rounding(force)
-    tilt = "free" if seated.case.bearing.carries_axial_load else "held"
+    bearing = seated.case.bearing
+    tilt = "free" if bearing.carries_axial_load and not bearing.self_aligning else "held"
     if seated.case.bearing.axial_refusal(float(force[0])):
         force[0] = 0.0
     if tilt == "held":  # as a run begins

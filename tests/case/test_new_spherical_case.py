@@ -159,3 +159,10 @@ def ranked_clearance(outline):
 def test_what_there_is_not_of_spherical_bearings_is_said(arguments, words, tmp_path, capsys):
     assert main(["new", *arguments, "-o", str(tmp_path / "case.toml")]) == 2
     assert words in " ".join(capsys.readouterr().err.split())
+
+
+def test_a_shaft_may_tilt_until_barrels_run_over_the_edge():
+    case = load_case(new_case(catalogue.find("22208").outline, "given").text)
+    assert case.replace({"load.misalignment": 0.03}).load.misalignment == 0.03
+    with pytest.raises(InputError, match="barrel rollers over the edge of the outer race"):
+        case.replace({"load.misalignment": 0.04})

@@ -51,3 +51,19 @@ def test_rows_on_a_shaft_bear_what_the_static_solution_says(facing):
         assert run[name].summary["energy_audit"] == "passed"
         assert sorted(set(run[name].dataset["row"].values)) == [0, 1]
     assert run.summary.missed < 1e-4
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("facing", ["+x", "-x"])
+def test_spherical_bearings_carry_a_shaft_that_turns(facing):
+    """Its tilts are held by both together, as neither resists them."""
+    text = MACHINE.replace("3205", "22208").replace("NN3005", "22208").replace("25 mm", "40 mm")
+    text = text.replace('"150 mm"', '"150 mm"\naxial_seat = "floating"').replace(
+        '"none"', '"rigid"'
+    )
+    run = simulate_machine(load_machine(text.format(facing=facing)), stress=False)
+    for figures in run.summary.bearings.values():
+        assert figures.radial == pytest.approx(figures.static_radial, rel=0.02)
+        assert abs(figures.axial) < 10.0
+    assert all(run[name].summary["energy_audit"] == "passed" for name in ("front", "rear"))
+    assert run.summary.missed < 1e-4
