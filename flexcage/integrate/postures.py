@@ -31,6 +31,6 @@ def seen_from_cages(q: dict[str, np.ndarray], places: np.ndarray) -> np.ndarray:
         centre, quaternion = centre[:, None], quaternion[:, None]
     turned = Rotation.from_quat(quaternion.reshape(-1, 4), scalar_first=True).as_matrix()
     n, cages = centre.shape[:2]
-    away = places.reshape(n, cages, -1, 3) - centre[:, :, None]
+    away = places.reshape(n, cages, places.shape[1] // cages, 3) - centre[:, :, None]
     seen = np.einsum("nkzc,nkcd->nkzd", away, turned.reshape(n, cages, 3, 3))
     return seen.reshape(places.shape)

@@ -79,8 +79,8 @@ def modal_oscillators(body: BodyData, layout: Layout) -> Oscillators:
     at = np.arange(layout.size)
     views = (layout.q(at), layout.u(at))
     place = np.stack([view["modes"][..., oscillating].ravel() for view in views])
-    alike = (np.tile(x[oscillating], layout.cages) for x in (decay, np.sqrt(squared)))
-    return Oscillators(place, *alike)
+    alike = decay[oscillating], np.sqrt(squared[oscillating])
+    return Oscillators(place, *(np.tile(x, layout.cages) for x in alike))
 
 
 def rates(t, y, yd, data, power):

@@ -83,6 +83,7 @@ def store(book):
         "flexcage": {"version": flexcage.__version__, "code": sources(book)},
     }  # fmt: skip
     for cell in code_cells(book).values():
+        cell["outputs"] = [out for out in cell["outputs"] if "IProgress" not in out.get("text", "")]
         for out in cell["outputs"]:
             if "image/png" in out.get("data", {}):
                 out["data"]["image/png"] = small(out["data"]["image/png"])

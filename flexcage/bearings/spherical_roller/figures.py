@@ -24,15 +24,15 @@ def _loaded_skew(part: SettledRun) -> Found | None:
 
 # fmt: off
 SPEEDS = FigureTable[SettledRun]("Speeds")
-SPEEDS.add("barrel_spin", "Roller speed, mean of all", "rpm",
+SPEEDS.add("barrel_spin", "Barrel speed, mean of all", "rpm",
            "about the barrel's axis, cage frame, positive as in rolling", "signed",
            take=lambda part: Found(part.spin,
                                    "about its own axis, cage frame, positive as in rolling"))
-SPEEDS.add("barrel_spin_ideal", "Roller speed, pure rolling", "rpm", "the same in pure rolling",
+SPEEDS.add("barrel_spin_ideal", "Barrel speed, pure rolling", "rpm", "the same in pure rolling",
            "signed",
            take=lambda part: abs(part.bearing.kinematics(part.inner_speed).element_spin_in_cage))
 SPEEDS.figures["roller_skew"] = ROLLERS.figures["roller_skew"]
-SPEEDS.add("barrel_skew_loaded", "Roller skew, loaded", "mrad",
+SPEEDS.add("barrel_skew_loaded", "Barrel skew, loaded", "mrad",
            "mean of loaded barrels of both rows; positive: their ends at the bearing's middle lead",
            "signed", "statistic", take=_loaded_skew)
 # fmt: on
