@@ -21,34 +21,28 @@ from typing import NamedTuple
 
 import numpy as np
 
-from flexcage.contacts.cone import add_rolling, cone_line
+from flexcage.contacts.cone import add_rolling, cone_line, set_speeds
 from flexcage.contacts.evaluation import (
-    DAMPED,
     MOMENT_PSI,
     MOMENT_R,
-    NORMAL,
     REPORT,
-    RUBBED,
     SLIDING,
-    STORED,
     TANGENT,
     TRACTION,
 )
 from flexcage.contacts.laws import EXPONENT
-from flexcage.contacts.slices import friction_power, largest, stored_and_damped
+from flexcage.contacts.slices import begin_sums, largest
 from flexcage.contacts.state import (
     AXIS,
-    CENTRE,
     MOMENT,
-    SPIN,
     WHOLE,
     add_generator,
     add_outer,
     clear,
     friction_tangent,
 )
-from flexcage.core.jit import VECTORISED, outlined, part, zero
-from flexcage.core.vectors import combine, cross, dot, plus, row, times, xyz
+from flexcage.core.jit import VECTORISED, outlined, part
+from flexcage.core.vectors import combine, cross, dot, plus, row, times
 
 
 class BarrelSide(NamedTuple):
@@ -82,12 +76,7 @@ def barrel_penetrations(m, pose, side, onset, rw):
     _penetrations(first, side, onset, ring_axis, line, spin, sl)
     if largest((first, first + np.uint64(n)), sl.d) <= 0.0:
         return False
-    # the surfaces' speeds along e_psi, seen from the contact, which moves with the orbit
-    orbit = pose.V[2] / partner[CENTRE, 1]
-    turn = dot(xyz(pose.w), row(pose.axis, 0)) - orbit * pose.axis[0, 0]
-    rw.speed[m] = -turn * side.sign * side.own
-    rw.ring_speed[m] = (partner[SPIN, 0] - orbit) * side.radius
-    rw.entrainment[m] = 0.5 * (rw.speed[m] + rw.ring_speed[m])
+    set_speeds(m, pose, side, rw)
     return True
 
 
@@ -141,9 +130,7 @@ def barrel_wrench(m, pose, side, rw, pair, mode, sums):
     span = (first, first + np.uint64(n))
     _add_forces(first, side, row(pose.axis, 0), sl, pair.wrench)
     if mode >= REPORT:
-        zero(sums)
-        sums[NORMAL], sums[RUBBED] = rw.load[m], friction_power(span, sl)
-        sums[STORED], sums[DAMPED] = stored_and_damped(span, sl, side.normal[EXPONENT])
+        begin_sums(span, rw.load[m], sl, side.normal[EXPONENT], sums)
         if mode == REPORT:
             _report(first, side, pose, row(rw.partner[m], AXIS), sl, sums)
     if mode == TANGENT:

@@ -20,25 +20,17 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.contacts.evaluation import (
-    DAMPED,
     MOMENT_PSI,
     MOMENT_R,
-    NORMAL,
     REPORT,
     ROLLED,
-    RUBBED,
     SLIDING,
-    STORED,
     TANGENT,
     TRACTION,
 )
 from flexcage.contacts.laws import EXPONENT
 from flexcage.contacts.roller_spot import add_spot_depth, add_spot_wrench, spot_generator
-from flexcage.contacts.slices import (
-    friction_power,
-    largest,
-    stored_and_damped,
-)
+from flexcage.contacts.slices import begin_sums, largest
 from flexcage.contacts.state import (
     AXIS,
     CENTRE,
@@ -53,7 +45,7 @@ from flexcage.contacts.state import (
     friction_tangent,
 )
 from flexcage.contacts.uneven_cone import add_slope_forces, add_unevenness, round_the_ring
-from flexcage.core.jit import VECTORISED, outlined, part, zero
+from flexcage.core.jit import VECTORISED, outlined, part
 from flexcage.core.vectors import combine, cross, dot, minus, plus, row, times, xyz
 
 
@@ -127,13 +119,20 @@ def cone_penetrations(m, pose, side, theta, onset, rw):
         add_spot_depth(first, pose, side, line, ring_axis, spin, sl)
     if largest((first, first + np.uint64(n)), sl.d) <= 0.0:
         return False
-    # the surfaces' speeds along e_psi, seen from the contact, which moves with the orbit
+    set_speeds(m, pose, side, rw)
+    return True
+
+
+@part
+def set_speeds(m, pose, side, rw):
+    """Speeds of both surfaces of contact m along e_psi, seen from the contact, which moves with the
+    orbit. ``side`` of cones or of barrels (``barrel.BarrelSide``)."""
+    partner = rw.partner[m]
     orbit = pose.V[2] / partner[CENTRE, 1]
     turn = dot(xyz(pose.w), row(pose.axis, 0)) - orbit * pose.axis[0, 0]
     rw.speed[m] = -turn * side.sign * side.own
     rw.ring_speed[m] = (partner[SPIN, 0] - orbit) * side.radius
     rw.entrainment[m] = 0.5 * (rw.speed[m] + rw.ring_speed[m])
-    return True
 
 
 @part
@@ -186,9 +185,7 @@ def cone_wrench(m, pose, side, theta, rw, pair, mode, sums):
     span = (first, first + np.uint64(n))
     _add_forces(first, side, row(pose.axis, 0), ring_axis, sl, pair.wrench)
     if mode >= REPORT:
-        zero(sums)
-        sums[NORMAL], sums[RUBBED] = rw.load[m], friction_power(span, sl)
-        sums[STORED], sums[DAMPED] = stored_and_damped(span, sl, side.normal[EXPONENT])
+        begin_sums(span, rw.load[m], sl, side.normal[EXPONENT], sums)
         if mode == REPORT:
             _report(first, side, pose, sl, sums)
     if side.uneven:

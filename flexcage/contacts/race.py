@@ -8,15 +8,11 @@ from typing import NamedTuple
 import numpy as np
 
 from flexcage.contacts.evaluation import (
-    DAMPED,
     MOMENT_PSI,
     MOMENT_R,
-    NORMAL,
     REPORT,
     ROLLED,
-    RUBBED,
     SLIDING,
-    STORED,
     TANGENT,
     TRACTION,
 )
@@ -24,12 +20,11 @@ from flexcage.contacts.laws import EXPONENT, rolling_forces
 from flexcage.contacts.roller_spot import add_spot_depth, add_spot_wrench, spot_generator
 from flexcage.contacts.slices import (
     CAPACITY,
+    begin_sums,
     friction_factors,
-    friction_power,
     largest,
     new_slices,
     normal_forces_of_lot,
-    stored_and_damped,
     total,
 )
 from flexcage.contacts.state import (
@@ -46,7 +41,7 @@ from flexcage.contacts.state import (
     friction_tangent,
 )
 from flexcage.contacts.uneven import spall_depth, wave_at
-from flexcage.core.jit import VECTORISED, outlined, part, zero
+from flexcage.core.jit import VECTORISED, outlined, part
 from flexcage.core.vectors import combine, cross, dot, minus, plus, row, times, xyz
 
 
@@ -178,9 +173,7 @@ def race_wrench(m, pose, side, Rw, theta, rw, pair, mode, sums):
     span = (first, first + np.uint64(n))
     _add_forces(first, side, Rw, a, ring_axis, sl, pair.wrench)
     if mode >= REPORT:
-        zero(sums)
-        sums[NORMAL], sums[RUBBED] = rw.load[m], friction_power(span, sl)
-        sums[STORED], sums[DAMPED] = stored_and_damped(span, sl, side.normal[EXPONENT])
+        begin_sums(span, rw.load[m], sl, side.normal[EXPONENT], sums)
         if mode == REPORT:
             _report(first, side, Rw, a, sl, sums)
     if side.uneven:

@@ -12,7 +12,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from flexcage.core.jit import VECTORISED, array_from, part
+from flexcage.contacts.evaluation import DAMPED, NORMAL, RUBBED, STORED
+from flexcage.core.jit import VECTORISED, array_from, part, zero
 
 CAPACITY = 136  # slices of one contact (128 at the most) or of a lot of them: what a near cache
 # holds, and no power of two, at which distance buffers share the cache's places
@@ -131,3 +132,12 @@ def stored_and_damped(span, sl, exponent):
         energy += sl.Ne[k] * max(sl.d[k], 0.0)
         power -= (sl.N[k] - sl.Ne[k]) * sl.v[k]
     return energy / (exponent + 1.0), power
+
+
+@part
+def begin_sums(span, load, sl, exponent, sums):
+    """Sums of a contact under a ``load`` whose slices are a span: of force and powers, and no
+    others yet; ``exponent`` of the elastic force."""
+    zero(sums)
+    sums[NORMAL], sums[RUBBED] = load, friction_power(span, sl)
+    sums[STORED], sums[DAMPED] = stored_and_damped(span, sl, exponent)

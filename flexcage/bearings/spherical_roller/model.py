@@ -12,19 +12,18 @@ from flexcage.bearings.cylindrical_roller.neighbours import roller_roller_data
 from flexcage.bearings.spherical_roller.bearing import SphericalRollerBearing
 from flexcage.bearings.spherical_roller.pocket_data import barrel_pocket_data, row_frames
 from flexcage.bearings.spherical_roller.statics import slice_places
+from flexcage.bearings.tapered_roller.model import leaning_work
 from flexcage.bodies.floating_frame import BodyData, no_body
 from flexcage.contacts import laws
 from flexcage.contacts.barrel import BarrelSide
 from flexcage.contacts.cone_cone import ConeConeContact
-from flexcage.contacts.cone_pocket import FaceFrames, cone_pocket_work
+from flexcage.contacts.cone_pocket import FaceFrames
 from flexcage.contacts.land import LandData, no_land
 from flexcage.contacts.pocket_wall import PocketData, no_pockets
-from flexcage.contacts.race import race_work
 from flexcage.contacts.spec import Contacts, Lubricant
-from flexcage.contacts.state import Q_SKEW, Q_SPIN, Q_TILT
 from flexcage.geometry.rollers import LINE_EXPONENT
 from flexcage.system.bodies import bodies_of, inner_ring_of, outer_ring_of, unbalanced
-from flexcage.system.data import Bodies, RingBody, Work, new_work
+from flexcage.system.data import Bodies, RingBody, Work
 from flexcage.system.layout import Layout
 from flexcage.system.spec import Drive, Load, Mount
 
@@ -124,12 +123,4 @@ def build_spherical_model(
 
 def spherical_work(model: SphericalModel, layout: Layout) -> Work:
     """Fresh workspaces of a spherical roller bearing for one thread."""
-    slices, points, stations = (
-        len(model.pocket.s), len(model.pocket.points), model.pocket.phi.shape[2]
-    )  # fmt: skip
-    work = cone_pocket_work(slices, points, stations, layout.modes)
-    return new_work(
-        layout, race_work(len(model.inner.s)), work, slices=slices, points=points,
-        faces=4 if layout.has_cage else 1, stations=stations, ribs=0,
-        land_stations=len(model.land.angle), turns=(Q_SPIN, Q_SKEW, Q_TILT),
-    )  # fmt: skip
+    return leaning_work(model, layout, ribs=0)

@@ -6,15 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from flexcage.bearings.cylindrical_roller.model import laws_in_pockets, pocket_arrays, points_over
 from flexcage.bearings.spherical_roller.bearing import SphericalRollerBearing
 from flexcage.bearings.spherical_roller.statics import slice_places
-from flexcage.bearings.tapered_roller.pocket_data import no_frames, on_faces, own_axes
+from flexcage.bearings.tapered_roller.pocket_data import no_frames, own_axes, plane_pockets
 from flexcage.bearings.two_rows import ROWS
 from flexcage.cages.conical.walls import pocket_walls
 from flexcage.cages.halves import signs_of
 from flexcage.contacts.cone_pocket import FaceFrames
-from flexcage.contacts.pocket_wall import SIDES, PocketData
+from flexcage.contacts.pocket_wall import PocketData
 from flexcage.contacts.spec import Contacts
 from flexcage.modes.basis import CageInterface
 
@@ -38,25 +37,13 @@ def barrel_pocket_data(
     b: SphericalRollerBearing, cage: Any, contacts: Contacts, interface: CageInterface
 ) -> PocketData:
     """Arrays of the pockets, as ``tapered_roller.pocket_data``, the row at -x first."""
-    walls, frames, half = pocket_walls(cage), row_frames(b, cage), 0.5 * b.roller_diameter
     s, reach = b.roller.spheres(slice_places(b, contacts.pocket.slices))
-    points = points_over(cage.section.inside, cage.section.outside, b.roller_diameter)
     modes = np.concatenate([
         np.einsum("fab,zfsbm->zfsam", f.axes, own)
-        for f, own in zip(frames, np.split(interface.modes, ROWS))
+        for f, own in zip(row_frames(b, cage), np.split(interface.modes, ROWS))
     ])  # fmt: skip
-    at = interface.stations if interface.offset_at is None else interface.offset_at
-    depth = (walls.middle * walls.normal).sum(axis=1)
-    known: dict[str, Any] = {
-        "place": np.repeat([row.place for row in b.row_places], b.roller_count),
-        "half": depth[[0, SIDES]], "s": s, "drop": half - reach, "points": points,
-        "half_roller": 0.5 * b.roller_length, "middle": 0.0,
-        "normal": laws_in_pockets(
-            b, cage, cage.bar_width(0.0, cage.bar_height, b.roller_count), len(points), contacts,
-            interface,
-        ),
-    }  # fmt: skip
-    return pocket_arrays(
-        interface, modes, on_faces(walls, interface.stations), on_faces(walls, at), contacts,
-        b.element_azimuths, **known,
+    return plane_pockets(
+        b, cage, contacts, interface, modes,
+        place=np.repeat([row.place for row in b.row_places], b.roller_count), s=s,
+        drop=0.5 * b.roller_diameter - reach, middle=0.0,
     )  # fmt: skip

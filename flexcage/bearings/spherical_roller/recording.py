@@ -9,9 +9,10 @@ import numpy as np
 from flexcage.bearings.cylindrical_roller.recording import RECORDING as OF_ROLLERS
 from flexcage.bearings.cylindrical_roller.recording import on_races
 from flexcage.bearings.spherical_roller.model import SphericalModel
-from flexcage.bearings.tapered_roller.recording import in_cage, in_walls
+from flexcage.bearings.tapered_roller.recording import in_walls
 from flexcage.bearings.two_rows import row_labels
 from flexcage.contacts.barrel import BarrelSide
+from flexcage.integrate.postures import seen_from_cages
 from flexcage.integrate.recording import Recording
 from flexcage.system.layout import Layout
 
@@ -51,7 +52,7 @@ def _in_pockets(
     model: SphericalModel, q: dict[str, np.ndarray], at: np.ndarray
 ) -> list[np.ndarray]:
     """Depths (n, 2Z) in the four faces of their pockets."""
-    seen, each = in_cage(q, at), model.rows.each
+    seen, each = seen_from_cages(q, at), model.rows.each
     one, other = (in_walls(model.pocket, f, seen) for f in (model.frames, model.frames_other))
     pairs = zip(one, other)
     return [np.concatenate([a[:, :each], b[:, each:]], axis=1) for a, b in pairs]

@@ -10,16 +10,12 @@ are nearest to each other beside the middle; a guide ring between the rows float
 from __future__ import annotations
 
 from flexcage.bearings.cylindrical_roller.residual import (
-    POCKETS,
-    SHARED,
     add_to_ring,
-    report_outer,
     report_race,
     ring_partner,
-    roller_rows,
     set_bodies,
 )
-from flexcage.bearings.tapered_roller.residual import along_axes
+from flexcage.bearings.tapered_roller.residual import after_races
 from flexcage.contacts.barrel import barrel_penetrations, barrel_wrench
 from flexcage.contacts.evaluation import (
     OUTER_RING,
@@ -27,14 +23,13 @@ from flexcage.contacts.evaluation import (
     RACE_RUBS,
     REPORT,
     RESIDUAL,
-    TANGENT,
 )
 from flexcage.contacts.race import race_forces
 from flexcage.contacts.slices import Laws
 from flexcage.contacts.state import CENTRE, take_pose
 from flexcage.core.jit import fields, outlined, part
 from flexcage.core.vectors import dot, row, xyz
-from flexcage.system.data import FAMILY_PARTS, INNER_RACE, OUTER_RACE
+from flexcage.system.data import INNER_RACE, OUTER_RACE
 from flexcage.system.ring import inner_of, outer_of
 
 
@@ -50,15 +45,7 @@ def evaluate(t, y, yd, d, law, out, mode):
             (each, at.elements), q, inner_of(y, d), fields(d.inner_other), INNER_RACE, d, law, mode
         )
     _of_row((0, at.elements), q, outer_of(y, d), fields(d.outer), OUTER_RACE, d, law, asked)
-    if mode >= REPORT:
-        report_outer(d)
-    if mode == OUTER_RING:
-        return
-    law[POCKETS](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
-    if mode == TANGENT:
-        along_axes(d)
-    roller_rows(y, yd, d, out, mode)
-    law[SHARED](t, y, yd, d, law[:FAMILY_PARTS], out, mode)
+    after_races(t, y, yd, d, law, out, mode)
 
 
 @outlined

@@ -162,12 +162,17 @@ def build_tapered_model(
 
 def tapered_work(model: TaperedModel, layout: Layout) -> Work:
     """Fresh workspaces of a tapered roller bearing for one thread."""
+    return leaning_work(model, layout, ribs=2)
+
+
+def leaning_work(model: Any, layout: Layout, *, ribs: int) -> Work:
+    """The same of any rollers whose axes lean, and which meet so many ribs."""
     slices, points, stations = (
         len(model.pocket.s), len(model.pocket.points), model.pocket.phi.shape[2]
     )  # fmt: skip
     work = cone_pocket_work(slices, points, stations, layout.modes)
     return new_work(
         layout, race_work(len(model.inner.s)), work, slices=slices, points=points,
-        faces=4 if layout.has_cage else 1, stations=stations, ribs=2,
+        faces=4 if layout.has_cage else 1, stations=stations, ribs=ribs,
         land_stations=len(model.land.angle), turns=(Q_SPIN, Q_SKEW, Q_TILT),
     )  # fmt: skip

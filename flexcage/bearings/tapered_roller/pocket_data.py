@@ -15,6 +15,7 @@ from flexcage.bearings.cylindrical_roller.model import (
 from flexcage.bearings.tapered_roller.bearing import TaperedRollerBearing
 from flexcage.bearings.tapered_roller.spheres import spheres
 from flexcage.cages.conical.cage import ConicalCage
+from flexcage.cages.conical.shape import ConeShaped
 from flexcage.cages.conical.walls import PocketWalls, pocket_walls
 from flexcage.contacts.cone_pocket import FaceFrames
 from flexcage.contacts.pocket_wall import FACES, SIDES, PocketData
@@ -53,25 +54,31 @@ def cone_pocket_data(
 ) -> PocketData:
     """Arrays of the pockets, whose stations count from mid-pocket along the roller's axis or round
     the cage; contacts count along the faces."""
-    walls, frames = pocket_walls(cage), face_frames(b, cage)
     s, reach = spheres(b, contacts.pocket.slices)
-    whole = b.sphere_at_centre
+    modes = np.einsum("fab,zfsbm->zfsam", face_frames(b, cage).axes, interface.modes)
+    return plane_pockets(
+        b, cage, contacts, interface, modes, place=np.zeros(b.roller_count), s=s,
+        drop=b.sphere_at_centre - reach, middle=-b.roller.centre,
+    )  # fmt: skip
+
+
+def plane_pockets(
+    b: Any, cage: ConeShaped, contacts: Contacts, interface: CageInterface, modes: np.ndarray,
+    **known: Any,
+) -> PocketData:  # fmt: skip
+    """Arrays of pockets whose faces are planes, with ``modes`` in the axes of these, and of rollers
+    whose axes lean: ``known`` are places of pockets, spheres of slices (``s``, ``drop``), and where
+    a roller's mid-length is (``middle``)."""
+    walls = pocket_walls(cage)
     points = points_over(cage.section.inside, cage.section.outside, b.roller_diameter)
-    modes = np.einsum("fab,zfsbm->zfsam", frames.axes, interface.modes)
+    bar = cage.bar_width(0.0, cage.bar_height, b.roller_count)
     at = interface.stations if interface.offset_at is None else interface.offset_at
     depth = (walls.middle * walls.normal).sum(axis=1)
-    known: dict[str, Any] = {
-        "place": np.zeros(b.roller_count), "half": depth[[0, SIDES]],
-        "s": s, "drop": whole - reach, "points": points,
-        "half_roller": 0.5 * b.roller_length, "middle": -b.roller.centre,
-        "normal": laws_in_pockets(
-            b, cage, cage.bar_width(0.0, cage.bar_height, b.roller_count), len(points), contacts,
-            interface,
-        ),
-    }  # fmt: skip
     return pocket_arrays(
         interface, modes, on_faces(walls, interface.stations), on_faces(walls, at), contacts,
-        b.element_azimuths, **known,
+        b.element_azimuths, half=depth[[0, SIDES]], points=points,
+        half_roller=0.5 * b.roller_length,
+        normal=laws_in_pockets(b, cage, bar, len(points), contacts, interface), **known,
     )  # fmt: skip
 
 

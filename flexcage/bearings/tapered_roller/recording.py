@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from flexcage.bearings.cylindrical_roller.recording import RECORDING as OF_ROLLERS
 from flexcage.bearings.cylindrical_roller.recording import on_races, spot_directions
@@ -14,6 +13,7 @@ from flexcage.contacts.cone import ConeSide
 from flexcage.contacts.cone_end import EndData
 from flexcage.contacts.cone_pocket import FaceFrames
 from flexcage.contacts.pocket_wall import FACES, SIDES, PocketData
+from flexcage.integrate.postures import seen_from_cages
 from flexcage.integrate.recording import Recording
 from flexcage.system.layout import Layout
 from flexcage.system.problem import BearingSystem
@@ -36,7 +36,7 @@ def overlaps(model: TaperedModel, layout: Layout, y: np.ndarray) -> np.ndarray:
     in_inner = at - q["inner"][:, None, :3]
     in_outer = at - q["outer"][:, None, :3]
     if layout.has_cage:
-        others = in_walls(model.pocket, model.frames, in_cage(q, at))
+        others = in_walls(model.pocket, model.frames, seen_from_cages(q, at))
     else:
         away = np.linalg.norm(np.roll(at, -1, axis=1) - at, axis=-1)
         others = [2.0 * model.inner.whole - away]
@@ -65,13 +65,6 @@ def _on_rib(end: EndData, at: np.ndarray, lean: tuple[np.ndarray, np.ndarray]) -
     height = np.hypot(at[..., 1], at[..., 2]) + end.place * lean[1]
     depth: np.ndarray = end.radius - end.cos * height - end.sin * (reach - end.apex)
     return depth
-
-
-def in_cage(q: dict[str, np.ndarray], at: np.ndarray) -> np.ndarray:
-    """Places (n, Z, 3) in space as the cage sees them."""
-    turn = Rotation.from_quat(q["quaternion"], scalar_first=True).as_matrix()
-    found: np.ndarray = np.einsum("nzc,ncd->nzd", at - q["cage"][:, None], turn)
-    return found
 
 
 def in_walls(pocket: PocketData, frames: FaceFrames, seen: np.ndarray) -> list[np.ndarray]:

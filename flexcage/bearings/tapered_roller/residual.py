@@ -65,6 +65,12 @@ def evaluate(t, y, yd, d, law, out, mode):
     for first in range(0, Z, lot):
         span = (first, min(first + lot, Z))
         _on_cone(span, q, outer_of(y, d), fields(d.outer), OUTER_RACE, d, law, asked)
+    after_races(t, y, yd, d, law, out, mode)
+
+
+@part
+def after_races(t, y, yd, d, law, out, mode):
+    """What follows the contacts with races: of rollers whose axes lean."""
     if mode >= REPORT:
         report_outer(d)
     if mode == OUTER_RING:
