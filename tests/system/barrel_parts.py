@@ -4,15 +4,16 @@ tests."""
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 from flexible_parts import shapes_at
 from scipy.spatial.transform import Rotation
-from tapered_parts import frames, soft_cage
+from tapered_parts import frames, in_cage, soft_cage
+from tapered_parts import in_pockets as in_one_row
 from tapered_parts import pocket_interface as one_row
 
-from flexcage.bearings import motion_of
 from flexcage.bearings.spherical_roller.recording import overlaps
 from flexcage.bearings.spherical_roller.start import barrels_in_space, in_frames
 from flexcage.cages.barrel.proposal import propose_barrel_cage
@@ -20,8 +21,6 @@ from flexcage.cages.conical.walls import pocket_walls
 from flexcage.case import load_case
 from flexcage.modes.pockets import frames_at
 from flexcage.stages import bearing_in_motion
-from flexcage.system.layout import Layout, bodies_of_bearing
-from flexcage.system.problem import BearingSystem
 
 TEXT = (Path(__file__).parents[2] / "examples/22208.toml").read_text("utf-8")
 LEVEL = {"load.misalignment": 0.0}
@@ -77,15 +76,10 @@ def turned_about_the_middle(bearing, y, turn):
 def caged(*, modes=6, soft=True, **changes):
     """The bearing with a cage of usual proportions, and synthetic modes of it."""
     case = CASE.replace(changes) if changes else CASE
-    spec, motion = case.mounted.bearing, motion_of(case.bearing)
+    spec = case.mounted.bearing
     cage = propose_barrel_cage(spec).cage
     body, _ = soft_cage(spec, cage, modes, soft)
-    model = motion.build_model(
-        spec, cage, body, pocket_interface(spec, cage, modes, soft), contacts=case.contacts,
-        lubricant=case.lubricant, drive=case.drive, load=case.load, mount=case.mount,
-    )  # fmt: skip
-    layout = Layout(spec.total_elements, bodies_of_bearing(modes))
-    return case, BearingSystem(motion, spec, model, case.contacts, layout)
+    return case, in_cage(case, cage, body, pocket_interface(spec, cage, modes, soft))
 
 
 def pocket_interface(spec, cage, modes, soft):
@@ -110,23 +104,4 @@ def pocket_interface(spec, cage, modes, soft):
     return replace(halves[0], **both)
 
 
-def in_pockets(bearing, y, depth=3e-6):
-    """Barrels pressed into bars before and behind them in turn, and into the ends of pockets, by
-    about ``depth`` [m]; the cage is off the middle, askew and strained."""
-    layout, model = bearing.layout, bearing.data.model
-    q, rng = layout.q(y), np.random.default_rng(11)
-    q["cage"][:] = (
-        (2.0 * depth + model.pocket.half[1] - model.pocket.half_roller)
-        / np.cos(bearing.spec.axis_angle),
-        4e-6,
-        -3e-6,
-    )
-    q["quaternion"][:] = Rotation.from_rotvec([2e-4, 1e-4, -1e-4]).as_quat(scalar_first=True)
-    q["modes"][:] = 4e-7 * rng.standard_normal(layout.modes)
-    for _ in range(3):
-        found = overlaps(model, layout, y[None])[0]
-        for i in range(layout.elements):
-            f = i % 2
-            across = model.frames.axes[f, 2, 2] * q["elements"][i, 1]
-            q["elements"][i, 2] += (1.0, -1.0)[f] * (depth - found[i, 2 + f]) / across
-    return y
+in_pockets = partial(in_one_row, overlaps=overlaps)

@@ -49,15 +49,19 @@ def tapered(**changes):
 def caged(*, modes=6, soft=True, **changes):
     """The bearing with a conical cage of usual proportions, and synthetic modes of it."""
     case = CASE.replace(changes) if changes else CASE
+    cage = propose_conical_cage(case.mounted.bearing).cage
+    return case, in_cage(case, cage, *soft_cage(case.mounted.bearing, cage, modes, soft))
+
+
+def in_cage(case, cage, body, interface):
+    """The bearing of a case, in motion in a cage."""
     spec, motion = case.mounted.bearing, motion_of(case.bearing)
-    cage = propose_conical_cage(spec).cage
-    body, interface = soft_cage(spec, cage, modes, soft)
     model = motion.build_model(
         spec, cage, body, interface, contacts=case.contacts, lubricant=case.lubricant,
         drive=case.drive, load=case.load, mount=case.mount,
     )  # fmt: skip
-    layout = Layout(spec.roller_count, bodies_of_bearing(modes))
-    return case, BearingSystem(motion, spec, model, case.contacts, layout)
+    layout = Layout(spec.total_elements, bodies_of_bearing(body.modes))
+    return BearingSystem(motion, spec, model, case.contacts, layout)
 
 
 def soft_cage(spec, cage, modes, soft):
@@ -100,9 +104,9 @@ def pocket_interface(spec, cage, modes, soft):
                    land=np.zeros((*made.land.shape[:3], modes)))  # fmt: skip
 
 
-def in_pockets(bearing, y, depth=3e-6):
-    """Rollers pressed into bars before and behind them in turn, and into the ends of pockets at -x,
-    by about ``depth`` [m]; the cage is off the middle, askew and strained."""
+def in_pockets(bearing, y, depth=3e-6, overlaps=overlaps):
+    """Rollers pressed into bars before and behind them in turn, and into the ends of pockets, by
+    about ``depth`` [m]; the cage is off the middle, askew and strained."""
     layout, model = bearing.layout, bearing.data.model
     q, rng = layout.q(y), np.random.default_rng(11)
     q["cage"][:] = (

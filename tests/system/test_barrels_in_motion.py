@@ -3,12 +3,21 @@ rolling, and skew."""
 
 from __future__ import annotations
 
-from math import cos, sin
+from math import sin
 
 import numpy as np
 import pytest
 from barrel_parts import barrels, settled, together, turned_about_the_middle
 from bearing_runs import march
+from leaning_rollers import (
+    check_balance,
+    check_energy,
+    check_integrators,
+    check_power,
+    check_slopes,
+    miss_of_rollers,
+    stir,
+)
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 from tapered_parts import (
@@ -17,15 +26,13 @@ from tapered_parts import (
     FRICTIONLESS,
     LIGHT,
     begun,
-    energy,
     frames,
     pushed,
 )
-from test_tapered_motion import miss
 
 from flexcage.contacts.laws import iso_line_stiffness
 from flexcage.static import solve_static
-from flexcage.system.data import DRAG, NEIGHBOUR_FRICTION, POWERS, RACE_FRICTION
+from flexcage.system.data import NEIGHBOUR_FRICTION, RACE_FRICTION
 from flexcage.system.statics.options import AT_START
 
 PAIRS = ((3, 4), (15, 0), (20, 21), (31, 16))
@@ -36,39 +43,13 @@ SLOW = {"load.axial": 0.0, "drive.speed": "500 rpm"}  # without gyroscopic momen
 def test_forces_on_barrels_and_rings_are_slopes_of_one_energy():
     """On x, r, azimuth, skew and tilt of every barrel and on both rings, tilts too."""
     _, bearing = barrels(**FRICTIONLESS, **ELASTIC, **DRY, **LIGHT)
-    y, layout = together(bearing, settled(bearing), PAIRS), bearing.layout
-    _, (inner, _), (outer, _) = pushed(bearing, y)
-    report, work = bearing.data.work.report, bearing.data.work.scratch
+    y, lever = together(bearing, settled(bearing), PAIRS), bearing.spec.pitch_radius
+    pushed(bearing, y)
+    report = bearing.data.work.report
     assert (report.race[:, :, 0] > 10.0).sum(axis=0).min() > 8
     assert (report.pocket_normal[[i for i, _ in PAIRS], 0] > 10.0).all()
-    q, moments = layout.q(y)["elements"], work.wrenches[:, 3:].copy()
-    forces, (_, axes) = work.wrenches[:, :3].copy(), frames(layout.q(y)["elements"])
-    border = {name: v.copy() for name, v in layout.border(work.border).items()}
-
-    def slope(name, index, h):
-        high, low = y.copy(), y.copy()
-        layout.q(high)[name][index] += h
-        layout.q(low)[name][index] -= h
-        return -(energy(bearing, high) - energy(bearing, low)) / (2.0 * h)
-
-    arm = 4e-3
-    for i in (0, 3, 4, 8, 15, 16, 20, 21, 29):
-        r = q[i, 1]
-        own = [
-            *forces[i, :2], (r * forces[i, 2] + moments[i, 0]) / r, moments[i, 1] / arm,
-            axes[i, 2] @ moments[i] / arm,
-        ]  # fmt: skip
-        levers = (1.0, 1.0, r, arm, arm)
-        due = [slope("elements", (i, c), 1e-9 / a) / a for c, a in enumerate(levers)]
-        assert own == pytest.approx(due, abs=3e-5 * np.abs(forces).max()), i
-    for name, force in (("inner", inner), ("outer", outer)):
-        due = [slope(name, c, 1e-9) for c in range(3)]
-        assert force == pytest.approx(due, abs=3e-5 * np.abs(force).max())
-        skew, m = layout.q(y)[name][3], border[name][3:]
-        due = [slope(name, c, 1e-7) for c in (3, 4)]
-        assert [m[1], m[0] * sin(skew) + m[2] * cos(skew)] == pytest.approx(
-            due, abs=3e-5 * np.abs(force).max() * bearing.spec.pitch_radius
-        )
+    rollers = (0, 3, 4, 8, 15, 16, 20, 21, 29)
+    check_slopes(bearing, y, rollers, arm=4e-3, of_moments=lambda force, moment: force * lever)
 
 
 def test_the_sphere_bears_no_moment_about_its_middle():
@@ -111,55 +92,19 @@ def test_a_misaligned_bearing_starts_with_the_forces_of_a_level_one():
 def test_all_forces_on_barrels_balance():
     """Friction, damping and rolling resistance included, about any point."""
     _, bearing = barrels(**{"lubricant.oil_fraction": 0.0}, **LIGHT)
-    y, rng = together(bearing, settled(bearing), PAIRS), np.random.default_rng(7)
-    u = bearing.layout.u(y)
-    u["elements"][:] = rng.standard_normal(u["elements"].shape) * (0.1, 0.1, 2.0, 900, 20, 20)
-    u["inner"][:] = rng.standard_normal(6) * (0.1, 0.1, 0.1, 300.0, 5.0, 5.0)
+    y = together(bearing, settled(bearing), PAIRS)
+    stir(bearing, y)
     found = pushed(bearing, y)
     power = bearing.data.work.report.power
     for place in (RACE_FRICTION, NEIGHBOUR_FRICTION):
         assert power[place] < -0.1
-    forces = np.vstack([np.atleast_2d(f) for f, _ in found])
-    moments = np.vstack([np.atleast_2d(m) for _, m in found])
-    assert np.abs(forces.sum(axis=0)).max() < 1e-12 * np.abs(forces).sum()
-    assert np.abs(moments.sum(axis=0)).max() < 1e-12 * np.abs(moments).sum()
+    check_balance(found)
 
 
 def test_power_is_what_contacts_of_barrels_say():
     """What forces do on all velocities is what contacts lose and take from their energy."""
     _, bearing = barrels(**LIGHT)
-    y, layout = together(bearing, settled(bearing), PAIRS), bearing.layout
-    rng, h = np.random.default_rng(3), 1e-9
-    u, q = layout.u(y), layout.q(y)["elements"]
-    u["elements"][:, :3] = rng.standard_normal((layout.elements, 3)) * (0.1, 0.1, 2.0)
-    orbit = u["elements"][:, 2] / q[:, 1]
-    skew, tilt = q[:, 3], q[:, 4]
-    u["elements"][:, 3] = 900.0 * rng.standard_normal(layout.elements)
-    u["elements"][:, 4] = -orbit * np.cos(skew) * np.sin(tilt)  # skew and tilt stay
-    u["elements"][:, 5] = orbit * np.sin(skew)
-    u["inner"][:4] = 0.05, -0.1, 0.1, 300.0
-    spin = layout.q(y)["inner"][3:5]
-    pushed(bearing, y)
-    report, work = bearing.data.work.report, bearing.data.work.scratch
-    w = np.einsum("zij,zi->zj", frames(q)[1], u["elements"][:, 3:])
-    power = float((work.wrenches[:, :3] * u["elements"][:, :3]).sum())
-    power += float((work.wrenches[:, 3:] * w).sum())
-    inner = layout.border(work.border)["inner"]
-    axis = [cos(spin[0]) * cos(spin[1]), sin(spin[1]), -sin(spin[0]) * cos(spin[1])]
-    power += float(inner[:3] @ u["inner"][:3] + 300.0 * inner[3:] @ axis)
-    lost = float(report.power[3:].sum() - report.power[DRAG])
-
-    def stored(t):
-        moved = y.copy()
-        at = layout.q(moved)
-        at["elements"][:, :2] += t * u["elements"][:, :2]
-        at["elements"][:, 2] += t * orbit
-        at["inner"][:3] += t * u["inner"][:3]
-        return energy(bearing, moved)
-
-    gained = (stored(h) - stored(-h)) / (2.0 * h)
-    assert abs(gained) > 1.0 and lost < -10.0
-    assert power == pytest.approx(lost - gained, rel=2e-3)
+    check_power(bearing, together(bearing, settled(bearing), PAIRS))
 
 
 def test_barrels_start_at_their_static_solution():
@@ -204,41 +149,21 @@ def test_barrels_roll_in_their_middles_and_slide_beside_them():
 def test_newton_matrix_of_barrels(load):
     """Left out: how forces turn with geometry, and how friction follows a light contact."""
     case, bearing = barrels(**load)
-    y, yd = begun(case, bearing)
-    rng = np.random.default_rng(2)
-    u = bearing.layout.u(y)["elements"]
-    u += rng.standard_normal(u.shape) * (0.005, 0.005, 0.05, 20.0, 1.0, 1.0)
-    power = np.zeros(len(POWERS))
-    bearing.function("residual")(0.0, y, yd, bearing.args, np.zeros(len(y)), power)
-    bearing.function("note")(0.0, y, bearing.args)
-    assert max(miss(bearing, y, yd, rng, 3e5) for _ in range(5)) < 0.2
+    assert miss_of_rollers(case, bearing) < 0.2
 
 
 def test_energy_balance_of_barrels():
     """What is stored changes by what powers brought; loaded barrels keep to pure rolling."""
     case, bearing = barrels()
-    h = march(bearing, *begun(case, bearing), duration=2e-3, method="explicit", tolerance=1e-8)
-    assert h.outcome == 0
-    stored = h.samples.energy.sum(axis=1)
-    missing = (stored - stored[0]) - (h.work - h.work[0]).sum(axis=1)
-    assert np.abs(missing).max() < 1e-3 * abs(h.power("drive")[-1])
+    h, last = check_energy(case, bearing)
     orbit, _ = rolling(case, bearing)
     loaded = h.samples.race[-1, :, 0, 0] > 300.0
-    last = bearing.layout.u(h.y)["elements"][-1, :, 2] / bearing.layout.q(h.y)["elements"][-1, :, 1]
     assert loaded.sum() > 3
     assert last[loaded] == pytest.approx(orbit, rel=3e-3)
 
 
 def test_both_integrators_move_barrels_alike():
-    states = []
-    for method in ("explicit", "bdf"):
-        case, bearing = barrels()
-        h = march(bearing, *begun(case, bearing), duration=0.2e-3, method=method, tolerance=1e-9)
-        assert h.outcome == 0
-        states.append(bearing.layout.q(h.y)["elements"][-1, :, :5])
-    explicit, implicit = states
-    np.testing.assert_allclose(explicit[:, :2], implicit[:, :2], atol=2e-8)
-    np.testing.assert_allclose(explicit[:, 2:], implicit[:, 2:], atol=3e-6)
+    check_integrators(barrels, 0.2e-3)
 
 
 def spread(bearing, race, force, n=2000):

@@ -23,8 +23,9 @@ def miss(bearing, y, yd, rng, alpha):
     tested = weight > 0.0
     d = np.zeros(layout.size)
     d[tested] = rng.uniform(-1, 1, tested.sum()) / weight[tested]
-    quat, dq = layout.q(y)["quaternion"], layout.q(d)["quaternion"]
-    dq -= quat * (quat @ dq) / (quat @ quat)  # a rotation, no change of the norm
+    if layout.has_cage:
+        quat, dq = layout.q(y)["quaternion"], layout.q(d)["quaternion"]
+        dq -= quat * (quat @ dq) / (quat @ quat)  # a rotation, no change of the norm
     s = 1e-2
 
     def along(e):

@@ -8,13 +8,13 @@ from math import cos, sin
 import numpy as np
 import pytest
 from bearing_runs import march
+from leaning_rollers import check_balance, shift, slope_of, stir
 from tapered_parts import (
     DRY,
     ELASTIC,
     FRICTIONLESS,
     LIGHT,
     begun,
-    energy,
     frames,
     pressed,
     pushed,
@@ -62,14 +62,6 @@ def test_forces_on_uneven_cones_are_slopes_of_one_energy(name):
     _, axes = frames(q)
     e, none = np.eye(3), np.zeros(3)
 
-    def slope(body, index, h):
-        sides = []
-        for step in (h, -h):
-            moved = y.copy()
-            layout.q(moved)[body][index] += step
-            sides.append(energy(bearing, moved))
-        return (sides[1] - sides[0]) / (2.0 * h)
-
     spun = turned = 0.0
     for i in (0, 2, 12, 13, 14):
         r, a = q[i, 1], axes[i]
@@ -84,7 +76,9 @@ def test_forces_on_uneven_cones_are_slopes_of_one_energy(name):
         steps = (1e-9, 1e-9, 5e-8, 1e-7, 1e-7, 1e-7)
         scale = np.abs(wrenches[i, :3]).max() * np.array([1.0, 1.0, r, r, r, r])
         found = np.array([power_of(m, wrenches[i, :3], wrenches[i, 3:]) for m in motions])
-        due = np.array([slope("elements", (i, c), h) for c, h in enumerate(steps)])
+        due = np.array(
+            [slope_of(bearing, y, shift("elements", i, c), h) for c, h in enumerate(steps)]
+        )
         assert found / scale == pytest.approx(due / scale, abs=5e-5), i
         spun = max(spun, abs(found[5]))
     for name_of_ring in ("inner", "outer"):
@@ -94,7 +88,8 @@ def test_forces_on_uneven_cones_are_slopes_of_one_energy(name):
         motions = [(k, none) for k in e] + [(none, k) for k in about]
         force = border[name_of_ring]
         found = [power_of(m, force[:3], force[3:]) for m in motions]
-        due = [slope(name_of_ring, c, h) for c, h in enumerate((1e-9,) * 3 + (1e-7,) * 3)]
+        steps = (1e-9,) * 3 + (1e-7,) * 3
+        due = [slope_of(bearing, y, shift(name_of_ring, c), h) for c, h in enumerate(steps)]
         scale = np.abs(force[:3]).max() * np.array([1.0] * 3 + [bearing.spec.pitch_radius] * 3)
         assert found / scale == pytest.approx(due / scale, abs=5e-5)
         turned = max(turned, abs(found[5]))
@@ -104,16 +99,11 @@ def test_forces_on_uneven_cones_are_slopes_of_one_energy(name):
 @pytest.mark.parametrize("name", UNEVEN)
 def test_all_forces_on_uneven_cones_balance(name):
     _, bearing = tapered(**{"lubricant.oil_fraction": 0.0}, **LIGHT, **UNEVEN[name])
-    y, rng = pressed(bearing), np.random.default_rng(7)
-    u = bearing.layout.u(y)
-    u["elements"][:] = rng.standard_normal(u["elements"].shape) * (0.1, 0.1, 2.0, 900, 20, 20)
-    u["inner"][:] = rng.standard_normal(6) * (0.1, 0.1, 0.1, 300.0, 5.0, 5.0)
+    y = pressed(bearing)
+    stir(bearing, y)
     found = pushed(bearing, y)
     assert bearing.data.work.report.power[RACE_FRICTION] < -0.1
-    forces = np.vstack([np.atleast_2d(f) for f, _ in found])
-    moments = np.vstack([np.atleast_2d(m) for _, m in found])
-    assert np.abs(forces.sum(axis=0)).max() < 1e-12 * np.abs(forces).sum()
-    assert np.abs(moments.sum(axis=0)).max() < 1e-12 * np.abs(moments).sum()
+    check_balance(found)
 
 
 def test_waves_of_the_outer_race_shake_the_ring_along_the_axis():

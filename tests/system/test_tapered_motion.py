@@ -8,6 +8,15 @@ from math import cos, sin, tan
 import numpy as np
 import pytest
 from bearing_runs import march
+from leaning_rollers import (
+    check_balance,
+    check_energy,
+    check_integrators,
+    check_power,
+    check_slopes,
+    miss_of_rollers,
+    stir,
+)
 from tapered_parts import (
     COULOMB,
     DRY,
@@ -16,8 +25,6 @@ from tapered_parts import (
     LIGHT,
     begun,
     caged,
-    energy,
-    frames,
     pressed,
     pushed,
     tapered,
@@ -26,7 +33,7 @@ from tapered_parts import (
 
 from flexcage.stages import assembled_start
 from flexcage.static import solve_static
-from flexcage.system.data import DRAG, NEIGHBOUR_FRICTION, POWERS, RACE_FRICTION, RIB_FRICTION
+from flexcage.system.data import NEIGHBOUR_FRICTION, RACE_FRICTION, RIB_FRICTION
 from flexcage.system.statics.options import AT_START
 
 PAIRS = ((3, 4), (9, 10), (16, 0))
@@ -37,96 +44,31 @@ TILTING = {"load.tilt": "free", "load.tilt_stiffness": "20 kN m/rad"}
 def test_forces_on_tapered_rollers_and_rings_are_slopes_of_one_energy():
     """On x, r, azimuth, skew and tilt of every roller and on both rings, tilts too."""
     _, bearing = tapered(**FRICTIONLESS, **ELASTIC, **DRY, **LIGHT)
-    y, layout = together(bearing, pressed(bearing), PAIRS), bearing.layout
-    rollers, (inner, _), (outer, _) = pushed(bearing, y)
-    report, work = bearing.data.work.report, bearing.data.work.scratch
+    y = together(bearing, pressed(bearing), PAIRS)
+    pushed(bearing, y)
+    report = bearing.data.work.report
     assert (report.race[:, :, 0] > 10.0).sum() > 12 and (report.rib[:, LARGE_RIB] > 1.0).sum() > 4
     assert (report.pocket_normal[[i for i, _ in PAIRS], 0] > 10.0).all()
-    q, moments = layout.q(y)["elements"], work.wrenches[:, 3:].copy()
-    forces, (_, axes) = work.wrenches[:, :3].copy(), frames(layout.q(y)["elements"])
-    border = {name: v.copy() for name, v in layout.border(work.border).items()}
-
-    def slope(name, index, h):
-        high, low = y.copy(), y.copy()
-        layout.q(high)[name][index] += h
-        layout.q(low)[name][index] -= h
-        return -(energy(bearing, high) - energy(bearing, low)) / (2.0 * h)
-
-    arm = 5e-3
-    for i in (0, 3, 4, 8, 10, 16):
-        r = q[i, 1]
-        own = [
-            *forces[i, :2], (r * forces[i, 2] + moments[i, 0]) / r, moments[i, 1] / arm,
-            axes[i, 2] @ moments[i] / arm,
-        ]  # fmt: skip
-        levers = (1.0, 1.0, r, arm, arm)
-        due = [slope("elements", (i, c), 1e-9 / a) / a for c, a in enumerate(levers)]
-        assert own == pytest.approx(due, abs=3e-5 * np.abs(forces).max()), i
-    for name, force in (("inner", inner), ("outer", outer)):
-        due = [slope(name, c, 1e-9) for c in range(3)]
-        assert force == pytest.approx(due, abs=3e-5 * np.abs(force).max())
-        skew, tilt = layout.q(y)[name][3:5]
-        m = border[name][3:]
-        due = [slope(name, c, 1e-7) for c in (3, 4)]
-        assert [m[1], m[0] * sin(skew) + m[2] * cos(skew)] == pytest.approx(
-            due, abs=3e-5 * np.abs(m).max()
-        )
-        assert abs(tilt) > 0.0
+    rollers = (0, 3, 4, 8, 10, 16)
+    check_slopes(bearing, y, rollers, arm=5e-3, of_moments=lambda force, moment: moment)
 
 
 def test_all_forces_on_tapered_rollers_balance():
     """Friction, damping and rolling resistance included, about any point."""
     _, bearing = tapered(**{"lubricant.oil_fraction": 0.0}, **LIGHT)
-    y, rng = together(bearing, pressed(bearing), PAIRS), np.random.default_rng(7)
-    u = bearing.layout.u(y)
-    u["elements"][:] = rng.standard_normal(u["elements"].shape) * (0.1, 0.1, 2.0, 900, 20, 20)
-    u["inner"][:] = rng.standard_normal(6) * (0.1, 0.1, 0.1, 300.0, 5.0, 5.0)
+    y = together(bearing, pressed(bearing), PAIRS)
+    stir(bearing, y)
     found = pushed(bearing, y)
     power = bearing.data.work.report.power
     for place in (RACE_FRICTION, RIB_FRICTION, NEIGHBOUR_FRICTION):
         assert power[place] < -0.1
-    forces = np.vstack([np.atleast_2d(f) for f, _ in found])
-    moments = np.vstack([np.atleast_2d(m) for _, m in found])
-    assert np.abs(forces.sum(axis=0)).max() < 1e-12 * np.abs(forces).sum()
-    assert np.abs(moments.sum(axis=0)).max() < 1e-12 * np.abs(moments).sum()
+    check_balance(found)
 
 
 def test_power_is_what_contacts_of_tapered_rollers_say():
     """What forces do on all velocities is what contacts lose and take from their energy."""
     _, bearing = tapered(**LIGHT)
-    y, layout = together(bearing, pressed(bearing), PAIRS), bearing.layout
-    rng, h = np.random.default_rng(3), 1e-9
-    u, q = layout.u(y), layout.q(y)["elements"]
-    u["elements"][:, :3] = rng.standard_normal((layout.elements, 3)) * (0.1, 0.1, 2.0)
-    orbit = u["elements"][:, 2] / q[:, 1]
-    tilt, skew = q[:, 4], q[:, 3]
-    u["elements"][:, 3] = 900.0 * rng.standard_normal(layout.elements)
-    u["elements"][:, 4] = -orbit * np.cos(skew) * np.sin(tilt)  # skew and tilt stay
-    u["elements"][:, 5] = orbit * np.sin(skew)
-    u["inner"][:4] = 0.05, -0.1, 0.1, 300.0
-    spin = layout.q(y)["inner"][3:5]
-    pushed(bearing, y)
-    report, work = bearing.data.work.report, bearing.data.work.scratch
-    _, axes = frames(q)
-    w = np.einsum("zij,zi->zj", axes, u["elements"][:, 3:])
-    power = float((work.wrenches[:, :3] * u["elements"][:, :3]).sum())
-    power += float((work.wrenches[:, 3:] * w).sum())
-    inner = layout.border(work.border)["inner"]
-    axis = [cos(spin[0]) * cos(spin[1]), sin(spin[1]), -sin(spin[0]) * cos(spin[1])]
-    power += float(inner[:3] @ u["inner"][:3] + 300.0 * inner[3:] @ axis)
-    lost = float(report.power[3:].sum() - report.power[DRAG])
-
-    def stored(t):
-        moved = y.copy()
-        at = layout.q(moved)
-        at["elements"][:, :2] += t * u["elements"][:, :2]
-        at["elements"][:, 2] += t * orbit
-        at["inner"][:3] += t * u["inner"][:3]
-        return energy(bearing, moved)
-
-    gained = (stored(h) - stored(-h)) / (2.0 * h)
-    assert abs(gained) > 1.0 and lost < -10.0
-    assert power == pytest.approx(lost - gained, rel=2e-3)
+    check_power(bearing, together(bearing, pressed(bearing), PAIRS))
 
 
 @pytest.mark.parametrize("tilt, share", [(0.0, 2e-4), (1e-3, 1e-3), (3e-3, 5e-3)])
@@ -232,57 +174,19 @@ def test_rib_friction_turns_large_ends_forwards(sense):
 def test_energy_balance_of_tapered_rollers():
     """What is stored changes by what powers brought; rollers keep to pure rolling."""
     case, bearing = tapered()
-    h = march(bearing, *begun(case, bearing), duration=2e-3, method="explicit", tolerance=1e-8)
-    assert h.outcome == 0
-    stored = h.samples.energy.sum(axis=1)
-    missing = (stored - stored[0]) - (h.work - h.work[0]).sum(axis=1)
-    assert np.abs(missing).max() < 1e-3 * abs(h.power("drive")[-1])
+    h, last = check_energy(case, bearing)
     orbit, _ = rolling(bearing.spec, case.drive.speed)
     loaded = h.samples.race[-1, :, 0, 0] > 100.0
-    last = bearing.layout.u(h.y)["elements"][-1, :, 2] / bearing.layout.q(h.y)["elements"][-1, :, 1]
     assert last[loaded] == pytest.approx(orbit, rel=3e-3)
-
-
-def miss(bearing, y, yd, rng, alpha):
-    """Largest error of one Newton step back from a displacement of one allowed error everywhere."""
-    weight = bearing.error_weights(1e-8)
-    tested = weight > 0.0
-    d = np.zeros(bearing.layout.size)
-    d[tested] = rng.uniform(-1, 1, tested.sum()) / weight[tested]
-    s = 1e-2
-
-    def along(e):
-        return bearing.residual(0.0, y + e * d, yd + e * alpha * d)
-
-    r = (along(s) - along(-s)) / (2 * s)
-    bearing.residual(0.0, y, yd, mode=1)
-    assert bearing.function("factor")(alpha, bearing.args)
-    bearing.function("backsolve")(alpha, y, r, bearing.args)
-    return np.abs((r + d) * weight).max()
 
 
 @pytest.mark.parametrize("load", [{}, {"load.axial": "6 kN"}, {"load.tilt": "free"}])
 def test_newton_matrix_of_tapered_rollers(load):
     """Left out: how friction on races follows geometry."""
     case, bearing = tapered(**load, **({"load.radial": "300 N"} if "load.tilt" in load else {}))
-    y, yd = begun(case, bearing)
-    rng = np.random.default_rng(2)
-    u = bearing.layout.u(y)["elements"]
-    u += rng.standard_normal(u.shape) * (0.005, 0.005, 0.05, 20.0, 1.0, 1.0)
-    power = np.zeros(len(POWERS))
-    bearing.function("residual")(0.0, y, yd, bearing.args, np.zeros(len(y)), power)
-    bearing.function("note")(0.0, y, bearing.args)
-    assert max(miss(bearing, y, yd, rng, 3e5) for _ in range(5)) < 0.06
+    assert miss_of_rollers(case, bearing) < 0.06
 
 
 @pytest.mark.slow
 def test_both_integrators_move_tapered_rollers_alike():
-    states = []
-    for method in ("explicit", "bdf"):
-        case, bearing = tapered()
-        h = march(bearing, *begun(case, bearing), duration=0.5e-3, method=method, tolerance=1e-9)
-        assert h.outcome == 0
-        states.append(bearing.layout.q(h.y)["elements"][-1, :, :5])
-    explicit, implicit = states
-    np.testing.assert_allclose(explicit[:, :2], implicit[:, :2], atol=2e-8)
-    np.testing.assert_allclose(explicit[:, 2:], implicit[:, 2:], atol=3e-6)
+    check_integrators(tapered, 0.5e-3)
