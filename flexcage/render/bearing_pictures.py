@@ -29,6 +29,7 @@ from flexcage.render.stage import Picture, shoot
 from flexcage.results import metrics
 from flexcage.results.each_cage import cage_count
 from flexcage.results.registry import NEIGHBOURS
+from flexcage.stress.mirrored import mirrored_solid
 
 if TYPE_CHECKING:
     import pyvista
@@ -226,11 +227,9 @@ def whole_cages(
     without a mesh."""
     if points is None or tets is None:
         return []
-    own, corners = tets[:, :4], ([0, 1, 2, 3], [1, 0, 2, 3])
-    return [
-        surface_of(own[:, corners[k]]).polydata(points * ((-1.0) ** k, 1.0, 1.0)).triangulate()
-        for k in range(count)
-    ]
+    first = points, tets[:, :4]
+    solids = [first, mirrored_solid(*first)][:count]
+    return [surface_of(own).polydata(at).triangulate() for at, own in solids]
 
 
 def compose(
