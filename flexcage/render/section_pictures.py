@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from flexcage.cages.halves import signs_of
 from flexcage.core.wings import FAMILIES
+from flexcage.geometry.bearing import RowPlace
+from flexcage.geometry.cage import EACH
 from flexcage.render import sheet
 from flexcage.render.shapes import Profile, shapes_of
 
@@ -43,9 +44,7 @@ def section_picture(
             turn = np.array([[cos(lean), sin(lean)], [-sin(lean), cos(lean)]])
             _fill(ax, shapes.element, 1, _ELEMENT, partial(_placed, turn, middle))
             _line(ax, bearing, row.place, lean)
-        if cage is not None and cage.half_section:
-            for row, sign in zip(bearing.row_places, signs_of(cage, bearing.row_places)):
-                _half_of_cage(ax, cage, row.place, sign)
+            _half_of_cage(ax, cage, row)
         ax.axhline(0.0, color=sheet.INK, lw=0.9, ls="-.")
         _frame(ax)
         ax.set_xlabel("x [mm]")
@@ -84,10 +83,15 @@ def _fill(
                 ax.plot(*(1e3 * place(np.array(edge)).T), color=sheet.INK, lw=1.0)
 
 
-def _half_of_cage(ax: Any, cage: Any, place: float, sign: float) -> None:
-    """A row's half of a cage, or the row's cage, at a ``place``; ``sign`` of its own x."""
-    corners = np.array(cage.half_section) * [sign, 1.0] + [place, 0.0]
-    ax.fill(*(1e3 * corners.T), facecolor=_CAGE, edgecolor=sheet.INK, lw=1.0, alpha=0.85)
+def _half_of_cage(ax: Any, cage: Any, row: RowPlace) -> None:
+    """A row's half of a cage; those of mirror images end at -x in the middle, and cages of which
+    each row has one to the outside."""
+    corners = np.array(cage.half_section if cage is not None else ())
+    if len(corners):
+        way = -1.0 if cage.rows == EACH else 1.0
+        corners[:, 0] *= way * np.sign(row.place) if cage.mirrored else 1.0
+        corners[:, 0] += row.place
+        ax.fill(*(1e3 * corners.T), facecolor=_CAGE, edgecolor=sheet.INK, lw=1.0, alpha=0.85)
 
 
 def _line(ax: Any, bearing: Any, place: float, lean: float) -> None:
